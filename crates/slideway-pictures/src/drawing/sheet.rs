@@ -300,8 +300,9 @@ impl Layout<'_> {
             Sheet { scene, bounds, title, description, held, heading: (0, 0.0) }
         };
         let piece = |panel: &Panel| {
+            // What is wanted grows once: else one answer would ask for more place than it shows.
             let own = bounds_of(std::slice::from_ref(panel));
-            let own = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let own = own.map_or(wanted, |bounds| wanted.with_heights_of(&bounds));
             let picture = held.map_or(own, |held| held.place_of(own));
             let mut scene = Scene::default();
             let foot = self.panel(&mut scene, panel, &picture, Point::zeros());

@@ -62,6 +62,9 @@ fn a_place_that_is_held_grows_and_never_shrinks() {
     let [one, two] = [first, second.clone()].map(|sheet| sheet.held.unwrap().place);
     assert_eq!(one.with(two), two);
     assert_eq!(third.held, second.held);
+    // What one drawing has taken is enough for it.
+    let (again, _) = drawer("0.55", first.held.as_ref());
+    assert_eq!(drawer("0.55", again.held.as_ref()).0, again);
     let walls = |sheet: &Sheet| -> Vec<Shape> {
         let walls = sheet.scene.elements.iter().filter(|element| element.class == Class::Wall);
         walls.map(|element| element.shape.clone()).collect()
