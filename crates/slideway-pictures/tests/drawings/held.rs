@@ -59,7 +59,7 @@ fn a_place_that_is_held_grows_and_never_shrinks() {
     let (first, _) = drawer("0.3", None);
     let (second, _) = drawer("0.6", first.held.as_ref());
     let (third, _) = drawer("0.3", second.held.as_ref());
-    let [one, two] = [first, second.clone()].map(|sheet| sheet.held.unwrap().place);
+    let [one, two] = [first.clone(), second.clone()].map(|sheet| sheet.held.unwrap().place);
     assert_eq!(one.with(two), two);
     assert_eq!(third.held, second.held);
     // What one drawing has taken is enough for it.
