@@ -124,19 +124,7 @@ impl Asked {
     /// # Errors
     /// All faults of the text.
     pub(crate) fn file(&self) -> Result<Rc<Model>, Faults> {
-        thread_local! {
-            static LAST: RefCell<Option<(String, Rc<Model>)>> = const { RefCell::new(None) };
-        }
-        let known = LAST.with_borrow(|last| {
-            let same = last.as_ref().filter(|(text, _)| *text == self.text);
-            same.map(|(_, model)| Rc::clone(model))
-        });
-        if let Some(model) = known {
-            return Ok(model);
-        }
-        let model = Rc::new(Model::parse(&self.text)?);
-        LAST.set(Some((self.text.clone(), Rc::clone(&model))));
-        Ok(model)
+        read(&self.text)
     }
 
     /// The model of the file with the settings.
@@ -149,6 +137,24 @@ impl Asked {
             faults
         })
     }
+}
+
+thread_local! {
+    /// The text that was read last, and its model.
+    static LAST: RefCell<Option<(String, Rc<Model>)>> = const { RefCell::new(None) };
+}
+
+fn read(text: &str) -> Result<Rc<Model>, Faults> {
+    let known = LAST.with_borrow(|last| {
+        let same = last.as_ref().filter(|(known, _)| known == text);
+        same.map(|(_, model)| Rc::clone(model))
+    });
+    if let Some(model) = known {
+        return Ok(model);
+    }
+    let model = Rc::new(Model::parse(text)?);
+    LAST.set(Some((text.to_owned(), Rc::clone(&model))));
+    Ok(model)
 }
 
 /// Parses a quantity that is varied, as by `--vary`.
