@@ -77,23 +77,36 @@ export function settled(act, wait) {
   };
 }
 
+/** What waits for the next frame, with what it is given: all of it asks the browser for that frame once. */
+const waiting = new Map();
+
+function draw() {
+  const all = [...waiting];
+  waiting.clear();
+  for (const [act, given] of all) {
+    try {
+      act(...given);
+    } catch (error) {
+      // The others are drawn all the same.
+      reportError(error);
+    }
+  }
+}
+
 /**
  * The function, called with what was given last right before the screen is drawn again: what the pointer changes by then is laid
  * out together with it.
  */
 export function withNextFrame(act) {
-  let newest = null;
-  const now = () => {
-    const given = newest;
-    newest = null;
-    if (given) act(...given);
-  };
   return (...given) => {
-    const isAsked = newest !== null;
-    newest = given;
     // What is not seen is not drawn.
-    if (document.hidden) now();
-    else if (!isAsked) requestAnimationFrame(now);
+    if (document.hidden) {
+      waiting.delete(act);
+      act(...given);
+      return;
+    }
+    if (waiting.size === 0) requestAnimationFrame(draw);
+    waiting.set(act, given);
   };
 }
 

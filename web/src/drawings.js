@@ -6,6 +6,25 @@ import { element, follow, parsed } from "./dom.js";
 const SMALLEST = 14;
 const LEGIBLE = 11;
 
+/**
+ * How wide a drawing may be (in its units) to be seen whole on this screen with texts that can be read; `null` where there is
+ * space for every one. The style sheet gives a figure this width where it puts them side by side.
+ */
+export const widest = () =>
+  matchMedia("(max-width: 60rem)").matches
+    ? Math.floor((Math.min(0.94 * (innerWidth - 23), 480) - 2) * (SMALLEST / LEGIBLE))
+    : null;
+
+/**
+ * What the next drawings keep of an answer. It was asked for before the last one was shown, so it may not know how much place
+ * that took.
+ */
+export function grown(held, next) {
+  if (!held || !next) return next;
+  const place = next.place.map((end, index) => (index < 2 ? Math.min : Math.max)(end, held.place[index]));
+  return { ...next, place };
+}
+
 /** Shows the drawings; of those that change only what is not as before. */
 export class Drawings {
   #place;

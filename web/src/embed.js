@@ -9,7 +9,7 @@
 // near. If that fails, or the figure asks for what there is not, it stays, and the reason stands below it.
 
 import { element, inWords, settled } from "./dom.js";
-import { Drawings } from "./drawings.js";
+import { Drawings, grown, widest } from "./drawings.js";
 import { withUnit } from "./numbers.js";
 import { key } from "./sliders.js";
 import { State, changesOf } from "./state.js";
@@ -44,6 +44,7 @@ class Live extends HTMLElement {
   #quantity = null;
   /** What drawings keep while values change. */
   #held = null;
+  #most = widest();
   #slow;
   #newest;
   #drawings;
@@ -134,7 +135,7 @@ class Live extends HTMLElement {
   #look() {
     this.#newest.want(
       () => ({
-        question: { ask: "look", ...this.#state.asked(), margins: false, held: this.#held },
+        question: { ask: "look", ...this.#state.asked(), margins: false, held: this.#held, most: this.#most },
         options: { seconds: 10, progress: (done) => this.#verdict.progress(done) },
       }),
       (reply, question) => this.#took(reply, question),
@@ -151,7 +152,7 @@ class Live extends HTMLElement {
   #took({ answer, faults }, question) {
     if (faults) return this.#atFault(faults, question.settings);
     this.#pictures.classList.remove("stale");
-    if (answer.answer) this.#held = answer.held;
+    if (answer.answer) this.#held = grown(this.#held, answer.held);
     const isFirst = !this.#quantity;
     if (isFirst) this.#begun(answer);
     this.#quantity = answer.quantities.find((one) => key(one) === key(this.#state.strip));

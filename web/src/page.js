@@ -2,7 +2,7 @@
 
 import { byId, element, inWords, parsed, say, settled, themeName, withNextFrame } from "./dom.js";
 import { pixels, save } from "./downloads.js";
-import { Drawings } from "./drawings.js";
+import { Drawings, grown, widest } from "./drawings.js";
 import { Editor } from "./editor.js";
 import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
@@ -53,6 +53,8 @@ let state = new State();
 let look = null;
 /** What drawings keep while values change: { held, text }, the engine's own words for scale and place, and for which model. */
 let kept = { held: null, text: "" };
+/** How wide drawings may be. */
+let most = widest();
 
 const verdict = new Verdict(document, () => {
   live.cancel();
@@ -90,7 +92,7 @@ function refresh() {
   const wanted = (margins) =>
     newest.want(
       () => ({
-        question: { ask: "look", ...state.asked(), margins, held: kept.text === state.text ? kept.held : null },
+        question: { ask: "look", ...state.asked(), margins, held: kept.text === state.text ? kept.held : null, most },
         options: { seconds: 10, progress: (done) => verdict.progress(done) },
       }),
       ifSame(took),
@@ -151,7 +153,8 @@ function showLook(answer, question, isFirst) {
   const asked = changesOf(question.settings);
   thorough = question.margins ? questioned(question) : "";
   look = answer;
-  if (look.answer) kept = { held: look.held, text: question.text };
+  if (look.answer && question.most === most)
+    kept = { held: grown(kept.text === question.text ? kept.held : null, look.held), text: question.text };
   showFaults(look.warnings, question);
   verdict.show(look);
   const title = `${look.title} – slideway`;
@@ -172,7 +175,7 @@ async function showPrepared() {
   const known = await prepared;
   if (!known || asking !== state || look) return;
   const { look: answer, limits } = known;
-  showLook(answer, { ...state.asked(), margins: true }, true);
+  showLook(answer, { ...state.asked(), margins: true, most: null }, true);
   strip.took({ answer: limits });
   wait(!isHere);
   told("prepared");
@@ -288,6 +291,14 @@ async function slowly(question) {
 }
 
 // ---- What is changed
+
+// A phone that is turned has another width: drawings begin anew.
+addEventListener("resize", () => {
+  if (most === widest()) return;
+  most = widest();
+  kept = { held: null, text: "" };
+  refresh();
+});
 
 /** A value was typed or dragged. */
 function changed(quantity, text) {

@@ -248,10 +248,11 @@ export class Strip {
         label("tick-text", x, bottom + COUNTS + 14, "middle", short(value)),
       );
     }
+    // Over the words of the counts there is no line.
     this.#line = shape(
       "g",
       { class: "present" },
-      shape("line", { y1: 16, y2: bottom + COUNTS - 6 }),
+      shape("line", { y1: 16, y2: bottom + 2 }),
       shape("circle", { cy: bottom + COUNTS - 6, r: 7 }),
       shape("text", { y: 12 }),
     );

@@ -32,12 +32,13 @@ export function load(address, progress) {
   return compiled;
 }
 
-/** An engine in a worker of its own. */
+/** An engine in a worker of its own, which answers questions in their order. */
 export class Engine {
   #module;
   #script;
   #worker = null;
-  #asked = null;
+  /** The questions without an answer; the first of them is being answered. */
+  #asked = [];
   #number = 0;
 
   /** `module`: what `load` promises. */
@@ -64,76 +65,101 @@ export class Engine {
   }
 
   #hear({ number, progress, reply, broken, ended, milliseconds }) {
-    const asked = this.#asked;
-    if (!asked || asked.number !== number) return;
+    const [asked] = this.#asked;
+    if (asked?.number !== number) return;
     if (progress) {
       asked.progress?.(progress);
     } else if (broken !== undefined) {
       this.#fail(new Error(`the engine stopped: ${broken}`));
     } else {
-      this.#asked = null;
+      this.#asked.shift();
       clearTimeout(asked.timer);
+      this.#watch();
       if ("stopped" in reply) asked.reject(new Ended("it took too long"));
       else asked.resolve({ ...reply, ended, milliseconds });
     }
   }
 
-  /** The worker may be in any state: another one takes its place. */
+  /** The worker may be in any state: another one takes its place, and goes on with the questions after the first. */
   #fail(error) {
     this.#worker?.terminate();
     this.#worker = null;
-    const asked = this.#asked;
-    this.#asked = null;
+    const asked = this.#asked.shift();
     clearTimeout(asked?.timer);
     asked?.reject(error);
+    if (!this.isBusy) return;
+    this.begin();
+    for (const next of this.#asked) this.#post(next);
+    this.#watch();
+  }
+
+  #post({ number, question, seconds }) {
+    this.#worker.postMessage({ number, question, seconds });
   }
 
   /** Whether a question waits for its answer. */
   get isBusy() {
-    return this.#asked !== null;
+    return this.#asked.length > 0;
   }
 
   /** Ends the question that is being answered, if there is one. */
+  end() {
+    if (this.isBusy) this.#fail(new Ended("ended"));
+  }
+
+  /** Ends all questions. */
   cancel() {
-    if (this.#asked) this.#fail(new Ended("ended"));
+    const others = this.#asked.splice(1);
+    this.end();
+    for (const { reject } of others) reject(new Ended("ended"));
   }
 
   /**
-   * The answer to a question; the one before it is ended.
+   * The answer to a question, after those before it.
    *
    * @param {object} question
    * @param {{ seconds?: number, progress?: (progress: object) => void }} options
    */
   ask(question, { seconds = 20, progress } = {}) {
-    this.cancel();
     const number = ++this.#number;
     return new Promise((resolve, reject) => {
-      const asked = { number, resolve, reject, progress, timer: undefined };
-      this.#asked = asked;
       this.begin();
-      this.#worker.postMessage({ number, question, seconds });
-      // On a slow line the engine itself comes late: the time begins when it is there.
-      this.#module.then(
-        () => {
-          if (this.#asked !== asked) return;
-          asked.timer = setTimeout(() => this.#fail(new Ended("it took too long")), 1000 * (seconds + GRACE));
-        },
-        () => {},
-      );
+      const asked = { number, question, seconds, resolve, reject, progress };
+      this.#asked.push(asked);
+      this.#post(asked);
+      if (this.#asked.length === 1) this.#watch();
     });
+  }
+
+  /** Ends the question that is being answered once its time is over. */
+  #watch() {
+    const [asked] = this.#asked;
+    // On a slow line the engine itself comes late: the time begins when it is there.
+    this.#module.then(
+      () => {
+        if (!asked || this.#asked[0] !== asked) return;
+        asked.timer = setTimeout(() => this.#fail(new Ended("it took too long")), 1000 * (asked.seconds + GRACE));
+      },
+      () => {},
+    );
   }
 }
 
+/** So many questions the engine has at once: it begins with the next answer while this page still draws the last one. */
+const AHEAD = 2;
+
 /**
- * Asks for the newest of many questions: while one is being answered only the latest of the others is kept, and one that
+ * Asks for the newest of many questions: while the engine has enough of them only the latest of the others is kept, and one that
  * takes long is ended for it. The newest of the answers is shown when the screen is drawn again.
  */
 export class Newest {
   #engine;
-  #next = null;
-  #running = false;
-  #begun = 0;
   #patience;
+  /** What the engine has; the first of it is being answered, since when. */
+  #asked = [];
+  #begun = 0;
+  #next = null;
+  #timer;
 
   /** `patience`: how long a question may take while another one waits (ms). */
   constructor(engine, patience = 1500) {
@@ -144,29 +170,42 @@ export class Newest {
   /** Asks for what `make` gives when its turn comes; `take` gets the reply, `fail` the error. */
   want(make, take, fail) {
     this.#next = { make, take, fail };
-    if (!this.#running) this.#run();
-    else if (performance.now() - this.#begun > this.#patience) this.#engine.cancel();
-    else setTimeout(() => this.#hurry(), this.#patience);
+    this.#ask();
+    this.#hurry();
   }
 
+  /** Ends what takes long while something else waits; looks again later. */
   #hurry() {
-    if (this.#next && performance.now() - this.#begun > this.#patience) this.#engine.cancel();
+    clearTimeout(this.#timer);
+    if (this.#asked.length < 2 && !this.#next) return;
+    const left = this.#begun + this.#patience - performance.now();
+    if (left > 0) {
+      this.#timer = setTimeout(() => this.#hurry(), left);
+      return;
+    }
+    this.#engine.end();
   }
 
-  async #run() {
-    this.#running = true;
-    for (let asked = this.#ask(); asked; asked ??= this.#ask()) {
-      const { question, take, fail, replied } = asked;
-      const [reply, error] = await replied.then(
-        (answered) => [answered],
-        (failed) => [null, failed],
-      );
-      // The engine goes on with what is wanted by now, while this answer is drawn.
-      asked = this.#ask();
+  /** Asks what is wanted now, if anything is, unless the engine has enough. */
+  #ask() {
+    if (!this.#next || this.#asked.length === AHEAD) return;
+    const asked = this.#next;
+    this.#next = null;
+    const { question, options } = asked.make();
+    if (this.#asked.length === 0) this.#begun = performance.now();
+    this.#asked.push(asked);
+    const answered = (answer) => {
+      if (this.#asked[0] !== asked) return;
+      this.#asked.shift();
+      this.#begun = performance.now();
+      this.#ask();
       // What is not the newest is shown, too: the picture follows.
-      this.#show({ reply, error, question, take, fail });
-    }
-    this.#running = false;
+      this.#show({ ...answer, question, ...asked });
+    };
+    this.#engine.ask(question, options).then(
+      (reply) => answered({ reply }),
+      (error) => answered({ error }),
+    );
   }
 
   #show = withNextFrame(({ reply, error, question, take, fail }) => {
@@ -177,17 +216,6 @@ export class Newest {
       if (!this.#engine.isBusy) fail(caught);
     }
   });
-
-  /** Asks what is wanted now, if anything is. */
-  #ask() {
-    if (!this.#next) return null;
-    const { make, take, fail } = this.#next;
-    this.#next = null;
-    const { question, options } = make();
-    this.#begun = performance.now();
-    const replied = this.#engine.ask(question, options);
-    return { question, take, fail, replied };
-  }
 }
 
 /**

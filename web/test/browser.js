@@ -1,9 +1,9 @@
 // Chromium, and the page in it.
 
-import { existsSync } from "node:fs";
+import { existsSync, readdirSync } from "node:fs";
 import { delimiter, resolve } from "node:path";
 import { after, before } from "node:test";
-import { page as folder } from "../tools/places.js";
+import { page as folder, top } from "../tools/places.js";
 import { serve } from "../tools/serve.js";
 
 const NAMES = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome"];
@@ -22,6 +22,11 @@ export function browserProgram() {
 export const skip = browserProgram()
   ? false
   : "there is no Chromium on this machine; name one in CHROMIUM to run these tests";
+
+/** The names of the models of the gallery. */
+export const gallery = readdirSync(resolve(top, "models"))
+  .filter((name) => name.endsWith(".toml"))
+  .map((name) => name.slice(0, -".toml".length));
 
 /** A browser and a server for the tests of a file. */
 export function setUp() {

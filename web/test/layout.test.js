@@ -2,7 +2,7 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { choose, close, limits, setUp, skip, verdict } from "./browser.js";
+import { choose, close, gallery, limits, setUp, skip, verdict } from "./browser.js";
 
 const set = setUp();
 const DESKTOP = { viewport: { width: 1400, height: 900 } };
@@ -95,6 +95,70 @@ test("nothing is wider than a phone", { skip }, async () => {
   });
   const width = await page.evaluate(() => document.documentElement.scrollWidth);
   assert.ok(width <= 361, `${width}`);
+  await close(page);
+});
+
+test("the mark of the present value covers no words of the strip", { skip }, async () => {
+  for (const options of [DESKTOP, PHONE]) {
+    const page = await set.open("#model=gallery:klepp-2002&set=F_20%3D0&vary=parameter~mu_1~0~0.8", options);
+    await limits(page);
+    // In the middle of the words "1 solution", below mu_1 = 0.45265396.
+    await page.locator(".strip-slider").fill("0.22");
+    await page.waitForFunction(() => document.querySelector(".present text").textContent === "0.22");
+    const [mark, words] = await page.evaluate(() =>
+      [".present line, .present circle", ".count-text"].map((of) =>
+        [...document.querySelectorAll(of)].map((one) => {
+          const { left, right, top: from, bottom } = one.getBoundingClientRect();
+          // The line of letters, without the space below it.
+          return { left, right, from, bottom: one.matches("text") ? bottom - 0.24 * (bottom - from) : bottom };
+        }),
+      ),
+    );
+    const middle = (of) => (of.left + of.right) / 2;
+    assert.ok(words.some((word) => Math.abs(middle(word) - middle(mark[0])) < 20));
+    for (const part of mark)
+      for (const word of words)
+        assert.ok(
+          part.right < word.left || word.right < part.left || part.bottom <= word.from || word.bottom <= part.from,
+          JSON.stringify([part, word]),
+        );
+    await close(page);
+  }
+});
+
+/** How far drawings are wider than a phone: the labels of this one need a place of their own beside it. */
+const WIDER = { "telescopic-boom": 30 };
+
+test("drawings are seen whole on a phone, moving and jammed", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer", PHONE);
+  const fits = async (name) => {
+    const wide = await page.evaluate(() =>
+      [...document.querySelectorAll("#drawings figure")].map((figure) => figure.scrollWidth - figure.clientWidth),
+    );
+    assert.ok(Math.max(...wide) <= (WIDER[name] ?? 1), `${name}: wider than their frames by ${wide}`);
+  };
+  await limits(page);
+  for (const mu of ["0.4", "0.62", "0.67", "0.8"]) {
+    await page.locator(".strip-slider").fill(mu);
+    await verdict(page, mu < 2 / 3 ? "one" : "none");
+    await fits(`drawer, mu = ${mu}`);
+  }
+  for (const name of gallery) {
+    await choose(page, name);
+    await fits(name);
+  }
+  await choose(page, "slider-crank");
+  // It is turned, and another one is narrower.
+  const shown = () => page.evaluate(() => Number(document.documentElement.dataset.shown));
+  for (const viewport of [
+    { width: 844, height: 390 },
+    { width: 360, height: 740 },
+  ]) {
+    const before = await shown();
+    await page.setViewportSize(viewport);
+    await page.waitForFunction((count) => Number(document.documentElement.dataset.shown) > count, before);
+    await fits(`${viewport.width} pixels`);
+  }
   await close(page);
 });
 

@@ -20,6 +20,8 @@ const SLOWER = 4;
 /** How long is dragged, and how long it is from move to move (ms). */
 const DRAG = 2000;
 const BETWEEN_MOVES = 16;
+/** How long it takes from 0.3 to 0.7 of the length. */
+const ONE_WAY = 1000;
 /** Lines (Mbit/s), with 100 ms from question to answer. */
 const LINES = [1.6, 0.4];
 const LATENCY = 100;
@@ -29,16 +31,15 @@ const site = `http://localhost:${server.address().port}/`;
 const browser = await chromium.launch({ executablePath: browserProgram(), args: ["--no-sandbox"] });
 
 /**
- * Makes a worker slower, which the browser can do for the page only: each answer comes after so many times its own time. It waits
- * without work: the page has a processor of its own.
+ * Makes a worker slower, which the browser can do for the page only: it sleeps before each answer, until that has taken so many
+ * times its own time. The processor has nothing to do meanwhile: the page has one of its own.
  */
 const slowed = (script) => `{
   const post = self.postMessage.bind(self);
-  let begun = 0;
-  addEventListener("message", () => { begun = performance.now(); });
+  const never = new Int32Array(new WebAssembly.Memory({ initial: 1, maximum: 1, shared: true }).buffer);
   self.postMessage = (message) => {
-    if (message.reply) setTimeout(() => post(message), ${SLOWER - 1} * (performance.now() - begun));
-    else post(message);
+    if (message.reply) Atomics.wait(never, 0, 0, ${SLOWER - 1} * message.milliseconds);
+    post(message);
   };
 }
 ${script}`;
@@ -80,12 +81,16 @@ async function firstDrag(name, slower) {
   return { rate: (1000 * count) / (after.now - before.now), each: (after.spent - before.spent) / Math.max(1, count) };
 }
 
-/** Moves the mouse as a hand does, which does not wait for the page. */
+/**
+ * Moves the mouse to and fro, as a hand does, which does not wait for the page: each way takes so long that every move is one to
+ * another of the 200 values of a slider, since without another value there is no other picture.
+ */
 async function moved(client, at) {
   const heard = [];
   const begun = performance.now();
-  for (let part = 0; part < 1; part = (performance.now() - begun) / DRAG) {
-    const [x, y] = at(part);
+  for (let spent = 0; spent < DRAG; spent = performance.now() - begun) {
+    const way = (spent / ONE_WAY) % 2;
+    const [x, y] = at(Math.min(way, 2 - way));
     const move = { type: "mouseMoved", x, y, button: "left", buttons: 1 };
     heard.push(client.send("Input.dispatchMouseEvent", move));
     await setTimeout(BETWEEN_MOVES);

@@ -3,7 +3,7 @@
 
 use crate::kept::Kept;
 use crate::quantity::{MOST, Quantity, quantities};
-use crate::question::Asked;
+use crate::question::{Asked, Drawn};
 use crate::state::{State, first_held};
 use crate::told_fault::{ToldFault, told};
 use serde::Serialize;
@@ -88,15 +88,16 @@ impl Verdict {
 /// are reasons, and a drawing without forces or none at all.
 pub(crate) fn look(
     asked: &Asked,
-    held: Option<Kept>,
+    drawn: Drawn,
     margins: bool,
     callback: &mut Callback<'_>,
 ) -> Result<Look, Faults> {
-    let file = Model::parse(&asked.text)?;
+    let file = asked.file()?;
     let model = asked.set(&file)?;
     let state = State::of(&model, margins, callback)?;
-    let held = held.map(Held::from).or_else(|| first_held(asked, &file, &state, callback));
-    let (sheets, held) = state.drawn(held);
+    let most = drawn.most.unwrap_or(f64::INFINITY);
+    let held = drawn.held.map(Held::from).or_else(|| first_held(asked, &file, &state, most, callback));
+    let (sheets, held) = state.drawn(held, most);
     let State { mechanism, configuration, solved } = &state;
     let coordinates = coordinates_of(&model, mechanism, configuration)?;
     Ok(Look {

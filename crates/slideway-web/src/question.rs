@@ -6,6 +6,8 @@ use slideway::fault::Faults;
 use slideway::limits::Vary;
 use slideway::model::{Model, Settings};
 use slideway_pictures::theme::{DARK, LIGHT, Theme};
+use std::cell::RefCell;
+use std::rc::Rc;
 
 /// A question of the page.
 #[derive(Debug, Deserialize)]
@@ -21,9 +23,8 @@ pub(crate) enum Question {
         of: Asked,
         /// Whether margins of friction are computed, too, which may take longer than everything else.
         margins: bool,
-        /// The scale and the place that the last answer about this model gave its drawings to keep.
-        #[serde(default)]
-        held: Option<Kept>,
+        #[serde(flatten)]
+        drawn: Drawn,
     },
     /// The text of the model with what is changed in it.
     Save(Asked),
@@ -97,13 +98,33 @@ pub(crate) struct Asked {
     pub(crate) settings: Settings,
 }
 
+/// How the drawings of a state are laid out.
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
+pub(crate) struct Drawn {
+    /// The scale and the place that the last answer about this model gave its drawings to keep.
+    #[serde(default)]
+    pub(crate) held: Option<Kept>,
+    /// The greatest width (drawing units) of those that keep nothing.
+    #[serde(default)]
+    pub(crate) most: Option<f64>,
+}
+
 impl Asked {
     /// The model with its settings.
     ///
     /// # Errors
     /// All faults of both, with the warnings of settings that may be the reason for them.
     pub(crate) fn model(&self) -> Result<Model, Faults> {
-        self.set(&Model::parse(&self.text)?)
+        let file = self.file()?;
+        self.set(&file)
+    }
+
+    /// The model of the text alone. One question after another is about the same text: it is read once.
+    ///
+    /// # Errors
+    /// All faults of the text.
+    pub(crate) fn file(&self) -> Result<Rc<Model>, Faults> {
+        read(&self.text)
     }
 
     /// The model of the file with the settings.
@@ -116,6 +137,24 @@ impl Asked {
             faults
         })
     }
+}
+
+thread_local! {
+    /// The text that was read last, and its model.
+    static LAST: RefCell<Option<(String, Rc<Model>)>> = const { RefCell::new(None) };
+}
+
+fn read(text: &str) -> Result<Rc<Model>, Faults> {
+    let known = LAST.with_borrow(|last| {
+        let same = last.as_ref().filter(|(known, _)| known == text);
+        same.map(|(_, model)| Rc::clone(model))
+    });
+    if let Some(model) = known {
+        return Ok(model);
+    }
+    let model = Rc::new(Model::parse(text)?);
+    LAST.set(Some((text.to_owned(), Rc::clone(&model))));
+    Ok(model)
 }
 
 /// Parses a quantity that is varied, as by `--vary`.

@@ -83,8 +83,8 @@ pub(crate) fn reply(question: &Question, callback: &mut Callback<'_>) -> String 
     match question {
         Question::Library => Reply::Answer(entries()).json(),
         Question::Style => Reply::Answer(stylesheet()).json(),
-        Question::Look { of, margins, held } => {
-            written(of, look(of, *held, *margins, callback).map(Some).map_err(Refusal::from))
+        Question::Look { of, margins, drawn } => {
+            written(of, look(of, *drawn, *margins, callback).map(Some).map_err(Refusal::from))
         }
         Question::Save(of) => written(of, saved(of).map(Some).map_err(Refusal::from)),
         Question::Check(of) => written(of, checked(of)),

@@ -17,7 +17,7 @@ struct Edit {
 /// # Errors
 /// Faults of the model and of its settings.
 pub(crate) fn saved(asked: &Asked) -> Result<String, Faults> {
-    let file = Model::parse(&asked.text)?;
+    let file = asked.file()?;
     asked.set(&file)?;
     let settings = asked.settings.entries();
     // Of several settings of one value the last counts.

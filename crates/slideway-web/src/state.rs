@@ -12,7 +12,7 @@ use slideway::model::Model;
 use slideway::progress::Callback;
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
-use slideway_pictures::drawing::{Bounds, Held, Sheet, pieces};
+use slideway_pictures::drawing::{Held, Sheet, pieces};
 
 /// A state of a model.
 pub(crate) struct State {
@@ -38,9 +38,11 @@ impl State {
         Ok(Self { mechanism, configuration, solved })
     }
 
-    /// Its drawings, and what those of the next state keep of them; `held` is what they keep of those before.
-    pub(crate) fn drawn(&self, held: Option<Held>) -> (Vec<Sheet>, Option<Held>) {
-        let sheets = pieces(&self.mechanism, &self.configuration, self.solved.as_ref().ok(), held.as_ref());
+    /// Its drawings, and what those of the next state keep of them; `held` is what they keep of those before. The first
+    /// are not wider than `most` drawing units.
+    pub(crate) fn drawn(&self, held: Option<Held>, most: f64) -> (Vec<Sheet>, Option<Held>) {
+        let report = self.solved.as_ref().ok();
+        let sheets = pieces(&self.mechanism, &self.configuration, report, held.as_ref(), most);
         let has_solutions = self
             .solved
             .as_ref()
@@ -54,16 +56,16 @@ impl State {
         let longest_force = solutions.clone().filter_map(|held| held.longest_force).reduce(f64::max);
         let longest_force = held.and_then(|held| held.longest_force).or(longest_force);
         let places = sheets.first().and_then(|sheet| sheet.held).into_iter().chain(solutions);
-        let place = places.map(|held| held.place).reduce(Bounds::with);
-        let kept = place.map(|place| Held { longest_force, place });
+        let place = places.reduce(|all, one| Held { place: all.place.with(one.place), ..all });
+        let kept = place.map(|held| Held { longest_force, ..held });
         (sheets, kept.filter(|held| is_finite(*held)))
     }
 }
 
 /// A place beyond floating-point numbers is none that JSON could hold.
 fn is_finite(held: Held) -> bool {
-    let Kept { longest_force, place } = Kept::from(held);
-    place.into_iter().chain(longest_force).all(f64::is_finite)
+    let Kept { longest_force, place, room } = Kept::from(held);
+    place.into_iter().chain(longest_force).chain([room]).all(f64::is_finite)
 }
 
 /// Returns the scale and the place that the drawings of the first state that is asked for keep of the state
@@ -73,15 +75,16 @@ pub(crate) fn first_held(
     asked: &Asked,
     file: &Model,
     state: &State,
+    most: f64,
     callback: &mut Callback<'_>,
 ) -> Option<Held> {
     if asked.settings.entries().is_empty() {
-        return state.drawn(None).1;
+        return state.drawn(None, most).1;
     }
     // The file may be at fault where settings mend it.
-    let in_file = State::of(file, false, callback).ok().and_then(|in_file| in_file.drawn(None).1);
+    let in_file = State::of(file, false, callback).ok().and_then(|in_file| in_file.drawn(None, most).1);
     match in_file {
         Some(Held { longest_force: Some(_), .. }) => in_file,
-        _ => state.drawn(None).1,
+        _ => state.drawn(None, most).1,
     }
 }

@@ -7,7 +7,7 @@
 use super::Painter;
 use super::loads::{CORNER, LEAST_ARROW};
 use super::outline::{clipped, turned, unit};
-use super::scene::{Class, Point, Shape};
+use super::scene::{Bounds, Class, Point, Shape};
 use super::slide::Slide;
 use slideway::ids::{ContactId, Frame};
 use slideway::mechanism::Effort;
@@ -126,11 +126,14 @@ impl Painter<'_> {
         Some([self.attached(&at), unit(self.view.direction(direction * effort.signum()), Point::x())])
     }
 
-    /// The cones as far as they overlap about the place where the forces meet, and the lines of the forces.
+    /// The cones as far as they overlap about the place where the forces meet, and the lines of the forces. Cones go on
+    /// beyond the picture: how wide they are does not make it wider.
     fn overlap(&mut self, cones: [&Cone; 2], [place, direction]: [Point; 2], meeting: Point) {
+        let around = Bounds { least: meeting, greatest: meeting }.widened(BEYOND);
+        let picture = self.scene.bounds().map_or(around, |drawn| drawn.with(around)).corners();
         let parts = cones.map(|cone| {
             let height = cone.coordinates(meeting)[0];
-            cone.part(height + BEYOND * height.signum())
+            clipped(&cone.part(height + BEYOND * height.signum()), &picture)
         });
         parts.iter().for_each(|part| self.area(Class::Cone, part.clone()));
         let overlap = clipped(&parts[0], &parts[1]);

@@ -120,7 +120,14 @@ impl Room {
     /// `least`. Nothing is looked at further once it costs too much.
     fn cost_below(&self, least: f64, far: f64, label: &Label, bounds: &Bounds) -> Option<f64> {
         let outside = self.drawn.map_or(0.0, |drawn| (drawn.with(*bounds).size() - drawn.size()).sum());
-        let covered = OUTSIDE * outside + crossed(bounds, &self.obstacles);
+        let mut crossed = 0.0;
+        for (_, weight) in self.obstacles.within(&bounds.widened(MARGIN)) {
+            crossed += weight;
+            if far + (OUTSIDE * outside + crossed) >= least {
+                return None;
+            }
+        }
+        let covered = OUTSIDE * outside + crossed;
         if far + covered >= least {
             return None;
         }
@@ -214,10 +221,6 @@ fn beside(anchor: Point, direction: Point, distance: f64, half: Point) -> Bounds
 
 fn holds(outer: &Bounds, inner: &Bounds) -> bool {
     outer.contains(&inner.least) && outer.contains(&inner.greatest)
-}
-
-fn crossed(bounds: &Bounds, obstacles: &Obstacles) -> f64 {
-    obstacles.within(&bounds.widened(MARGIN)).map(|(_, weight)| weight).sum()
 }
 
 /// Places along all lines but the outlines of bodies, each with what it costs to cover it.

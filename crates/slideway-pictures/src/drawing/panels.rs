@@ -11,9 +11,9 @@ use slideway::solve::{Locking, locking};
 
 /// The most solutions that are drawn.
 pub(super) const MOST: usize = 24;
-/// Length of the longest arrow of a force, and to which it may grow at a scale that is held.
+/// Length of the longest arrow of a force, and to which it may grow at a scale that is held where there is space for it.
 pub(super) const LONGEST_FORCE: f64 = 76.0;
-const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
+pub(super) const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
 
 /// Remark on a picture whose guides are drawn with a play that can be seen instead of their own.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
@@ -99,6 +99,8 @@ pub(super) struct Drawn<'a> {
     pub(super) view: &'a View,
     /// The force whose arrow is the longest; without it, the greatest of each drawing.
     pub(super) longest_force: Option<f64>,
+    /// To which length arrows may grow at a scale that is held.
+    pub(super) longest_held: f64,
 }
 
 impl Drawn<'_> {
@@ -215,7 +217,7 @@ impl Drawn<'_> {
     fn scale(&self, greatest: f64) -> (f64, Option<f64>, f64) {
         let longest = self.longest_force.unwrap_or(greatest);
         let scale = if longest > 0.0 { LONGEST_FORCE / longest } else { 1.0 };
-        let longest_arrow = self.longest_force.map_or(LONGEST_ARROW, |_| LONGEST_HELD);
+        let longest_arrow = self.longest_force.map_or(LONGEST_ARROW, |_| self.longest_held);
         (scale, (greatest > 0.0).then_some(scale), longest_arrow)
     }
 

@@ -201,6 +201,12 @@ impl Bounds {
         self.greatest - self.least
     }
 
+    /// The four corners, one after the other around it.
+    pub(super) fn corners(&self) -> [Point; 4] {
+        let Self { least, greatest } = *self;
+        [least, Point::new(greatest.x, least.y), greatest, Point::new(least.x, greatest.y)]
+    }
+
     /// The middle.
     pub fn middle(&self) -> Point {
         0.5 * (self.least + self.greatest)

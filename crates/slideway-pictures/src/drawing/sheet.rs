@@ -1,8 +1,8 @@
 //! A sheet: the mechanism, and beside it each of its solutions.
 
 use super::forces::forces_on;
-use super::loads::sample;
-use super::panels::{Drawn, LONGEST_FORCE, MOST, Panel, Shown};
+use super::loads::{LONGEST_ARROW, sample};
+use super::panels::{Drawn, LONGEST_FORCE, LONGEST_HELD, MOST, Panel, Shown};
 use super::paragraph::{LINE, beside, paragraph};
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::svg::{Colours, Frame};
@@ -31,6 +31,10 @@ const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
 /// By multiples of this a place grows that is held.
 const STEP: f64 = SPACE;
+/// The smallest part of its usual room that a mechanism has where drawings are narrow.
+const LEAST_ROOM: f64 = 0.4;
+/// By so much of it the room shrinks at least, until a drawing is narrow enough.
+const LEAST_STEP: f64 = 0.05;
 
 /// A sheet of drawings.
 #[derive(Debug, Clone, PartialEq)]
@@ -58,6 +62,8 @@ pub struct Held {
     pub longest_force: Option<f64>,
     /// The place that the drawing has. It grows where another needs more, and never shrinks.
     pub place: Bounds,
+    /// The part of its usual width and height that the mechanism itself has in the drawing, so that this is narrow enough.
+    pub room: f64,
 }
 
 impl Held {
@@ -138,8 +144,9 @@ pub fn sheet(
     shown: Shown,
 ) -> Option<Sheet> {
     let mechanism = &in_units_of(report, mechanism, configuration);
-    let view = view(mechanism, configuration);
-    let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force: None };
+    let view = view(mechanism, configuration, 1.0);
+    let (longest_force, longest_held) = (None, LONGEST_HELD);
+    let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force, longest_held };
     let panels = drawn.panels(shown)?;
     let title = title(mechanism);
     let mut lines: Vec<String> =
@@ -152,7 +159,7 @@ pub fn sheet(
 
 /// Draws each panel of a sheet by itself, with its caption, and at the end the key to the colours, for a page
 /// that has the title and the state itself. Where something is held, solutions are drawn to its scale and in
-/// its place.
+/// its place; else no drawing is wider than `most` drawing units, as far as the mechanism can then be seen.
 ///
 /// ```
 /// use slideway::model::{Model, Settings};
@@ -164,7 +171,7 @@ pub fn sheet(
 ///     let model = file.with(&Settings::default().parameter("mu", mu))?;
 ///     let mechanism = Mechanism::new(&model)?;
 ///     let configuration = Configuration::new(&mechanism)?;
-///     Ok(pieces(&mechanism, &configuration, Some(&solve(&model)?), held))
+///     Ok(pieces(&mechanism, &configuration, Some(&solve(&model)?), held, f64::INFINITY))
 /// };
 /// // The mechanism itself, its solution, and the key.
 /// let held = drawn("0.3", None)?[1].held;
@@ -177,21 +184,47 @@ pub fn pieces(
     configuration: &Configuration,
     report: Option<&SolveReport>,
     held: Option<&Held>,
+    most: f64,
 ) -> Vec<Sheet> {
     let mechanism = &in_units_of(report, mechanism, configuration);
-    let view = view(mechanism, configuration);
-    let longest_force = held.and_then(|held| held.longest_force);
-    let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force };
-    let panels = drawn.panels(Shown::All).unwrap_or_default();
-    let title = title(mechanism);
-    let (lines, forces_on) = (Vec::new(), forces_on(mechanism));
-    Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held)
+    // Arrows grow little where it is narrow, and each way by steps.
+    let (longest_held, growth) =
+        if most.is_finite() { (LONGEST_ARROW, 2.0 * STEP) } else { (LONGEST_HELD, 0.0) };
+    let within = |room: f64| {
+        let view = view(mechanism, configuration, room);
+        let longest_force = held.and_then(|held| held.longest_force);
+        let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force, longest_held };
+        let panels = drawn.panels(Shown::All).unwrap_or_default();
+        let (title, lines, forces_on) = (title(mechanism), Vec::new(), forces_on(mechanism));
+        Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held, room)
+    };
+    let mut room = held.map_or(1.0, |held| held.room);
+    let mut narrowest = (f64::INFINITY, Vec::new());
+    loop {
+        let pieces = within(room);
+        let widest = pieces.iter().map(|sheet| sheet.bounds.size().x).fold(0.0, f64::max);
+        // Where it is crowded labels stand farther outside: what is smaller is not always narrower.
+        if narrowest.1.is_empty() || widest < narrowest.0 {
+            narrowest = (widest, pieces);
+        }
+        let excess = (widest + growth - most) / usual_room(mechanism)[0];
+        if held.is_some() || excess <= 0.0 || room <= LEAST_ROOM {
+            return narrowest.1;
+        }
+        // One that is as high as its room is narrower than that: each step is one that can be seen.
+        room = (room - excess.clamp(LEAST_STEP, 2.0 * LEAST_STEP)).max(LEAST_ROOM);
+    }
 }
 
-/// A view with room for what each contact needs.
-fn view(mechanism: &Mechanism, configuration: &Configuration) -> View {
+/// Room for what each contact needs.
+fn usual_room(mechanism: &Mechanism) -> [f64; 2] {
     let part = (mechanism.contacts.len() as f64 / CONTACTS).clamp(1.0, 2.0);
-    View::fitting(mechanism, &[configuration], PANEL.map(|side| part * side))
+    PANEL.map(|side| part * side)
+}
+
+/// A view with a part of the usual room.
+fn view(mechanism: &Mechanism, configuration: &Configuration, room: f64) -> View {
+    View::fitting(mechanism, &[configuration], usual_room(mechanism).map(|side| room * side))
 }
 
 /// The title of a mechanism, or what stands for it.
@@ -261,7 +294,7 @@ impl Layout<'_> {
     }
 
     /// Each panel by itself, and the key.
-    fn pieces(self, held: Option<&Held>) -> Vec<Sheet> {
+    fn pieces(self, held: Option<&Held>, room: f64) -> Vec<Sheet> {
         let wanted = self.picture();
         let picture = held.map_or(wanted, |held| held.place_of(wanted));
         let width = picture.size().x.max(LEAST_WIDTH);
@@ -274,15 +307,16 @@ impl Layout<'_> {
             Sheet { scene, bounds, title, description, held, heading: (0, 0.0) }
         };
         let piece = |panel: &Panel| {
+            // What is wanted grows once: else one answer would ask for more place than it shows.
             let own = bounds_of(std::slice::from_ref(panel));
-            let own = own.map_or(picture, |bounds| picture.with_heights_of(&bounds));
+            let own = own.map_or(wanted, |bounds| wanted.with_heights_of(&bounds));
             let picture = held.map_or(own, |held| held.place_of(own));
             let mut scene = Scene::default();
             let foot = self.panel(&mut scene, panel, &picture, Point::zeros());
             all.elements.extend(scene.elements.iter().cloned());
             let longest_force = panel.force_scale.map(|scale| LONGEST_FORCE / scale);
             let longest_force = held.and_then(|held| held.longest_force).or(longest_force);
-            let held = Held { longest_force, place: picture };
+            let held = Held { longest_force, place: picture, room };
             let words = (&*panel.caption.heading, panel.caption.in_words());
             sheet(scene, foot, words, Some(held))
         };

@@ -59,8 +59,10 @@ impl Findings {
         };
         let answer =
             solve_with(model, &SolveOptions::default(), &mut look).map_err(|faults| reasons(&faults));
-        let (title, drawings) =
-            (title(&mechanism), pieces(&mechanism, &configuration, answer.as_ref().ok(), None));
+        let (title, drawings) = (
+            title(&mechanism),
+            pieces(&mechanism, &configuration, answer.as_ref().ok(), None, f64::INFINITY),
+        );
         let limits = varied(model, wanted, &mut look)?;
         let efficiency = efficiency(model, &mut look);
         let rest = rest(model, answer.is_err(), &mut look);

@@ -54,9 +54,13 @@ fn cases() -> Vec<(String, Case)> {
 #[test]
 fn everything_is_within_the_view_box() {
     for (name, case, sheet) in &*CASES {
-        for sheet in
-            once(sheet).chain(&pieces(&case.mechanism, &case.configuration, case.report.as_ref(), None))
-        {
+        for sheet in once(sheet).chain(&pieces(
+            &case.mechanism,
+            &case.configuration,
+            case.report.as_ref(),
+            None,
+            f64::INFINITY,
+        )) {
             within(name, sheet);
         }
     }

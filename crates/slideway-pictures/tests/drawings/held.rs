@@ -6,11 +6,16 @@ use slideway_pictures::drawing::{Class, Held, Shape, Sheet, pieces};
 
 /// The drawing of the only solution of the drawer, and its greatest normal force (N).
 fn drawer(mu: &str, held: Option<&Held>) -> (Sheet, f64) {
+    drawer_within(mu, held, f64::INFINITY)
+}
+
+/// The same, not wider than this.
+fn drawer_within(mu: &str, held: Option<&Held>, most: f64) -> (Sheet, f64) {
     let settings = Settings::default().parameter("mu", mu);
     let case = Case::new(slideway::gallery::find("drawer").unwrap().text, &settings);
     let report = case.report.as_ref().unwrap();
     let forces = report.solutions[0].contacts.iter().map(|contact| contact.normal_force.abs());
-    let sheet = pieces(&case.mechanism, &case.configuration, Some(report), held).remove(1);
+    let sheet = pieces(&case.mechanism, &case.configuration, Some(report), held, most).remove(1);
     (sheet, forces.fold(0.0, f64::max))
 }
 
@@ -54,13 +59,44 @@ fn a_place_that_is_held_grows_and_never_shrinks() {
     let (first, _) = drawer("0.3", None);
     let (second, _) = drawer("0.6", first.held.as_ref());
     let (third, _) = drawer("0.3", second.held.as_ref());
-    let [one, two] = [first, second.clone()].map(|sheet| sheet.held.unwrap().place);
+    let [one, two] = [first.clone(), second.clone()].map(|sheet| sheet.held.unwrap().place);
     assert_eq!(one.with(two), two);
     assert_eq!(third.held, second.held);
+    // What one drawing has taken is enough for it.
+    let (again, _) = drawer("0.55", first.held.as_ref());
+    assert_eq!(drawer("0.55", again.held.as_ref()).0, again);
     let walls = |sheet: &Sheet| -> Vec<Shape> {
         let walls = sheet.scene.elements.iter().filter(|element| element.class == Class::Wall);
         walls.map(|element| element.shape.clone()).collect()
     };
     assert!(!walls(&second).is_empty());
     assert_eq!(walls(&third), walls(&second));
+}
+
+/// A phone shows 440 drawing units side by side at which the smallest texts have 11 pixels.
+#[test]
+fn drawings_are_as_narrow_as_is_asked_for() {
+    const PHONE: f64 = 440.0;
+    for model in slideway::gallery::MODELS {
+        let case = Case::gallery(model.name);
+        let drawn = |most| pieces(&case.mechanism, &case.configuration, case.report.as_ref(), None, most);
+        // The labels of this one need more.
+        let most = if model.name == "telescopic-boom" { 475.0 } else { PHONE };
+        for sheet in drawn(PHONE) {
+            assert!(sheet.bounds.size().x <= most, "{}: {:?}", model.name, sheet.bounds);
+        }
+        // Nothing is smaller than it has to be.
+        let widest = |sheets: &[Sheet]| sheets.iter().map(|sheet| sheet.bounds.size().x).fold(0.0, f64::max);
+        let free = drawn(f64::INFINITY);
+        if widest(&free) < 0.8 * PHONE {
+            assert_eq!(drawn(PHONE), free, "{}", model.name);
+        }
+    }
+    // Forces grow, and the drawing with them: it stays on the screen.
+    let mut held = drawer_within("0.3", None, PHONE).0.held;
+    for mu in ["0.5", "0.62", "0.66", "0.4"] {
+        let (sheet, _) = drawer_within(mu, held.as_ref(), PHONE);
+        assert!(sheet.bounds.size().x <= PHONE, "{mu}: {:?}", sheet.bounds);
+        held = sheet.held;
+    }
 }

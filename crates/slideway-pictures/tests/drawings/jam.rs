@@ -3,7 +3,7 @@
 use crate::Case;
 use slideway::model::Settings;
 use slideway::solve::locking;
-use slideway_pictures::drawing::{Class, Point, Shape, Sheet, Shown, sheet};
+use slideway_pictures::drawing::{Bounds, Class, Point, Shape, Sheet, Shown, pieces, sheet};
 
 fn drawn(name: &str, parameters: &[(&str, &str)]) -> Sheet {
     let settings =
@@ -58,7 +58,7 @@ fn the_push_meets_both_reactions_within_both_cones() {
             .collect();
         let meeting = lines[0][1];
         for (cone, line) in cones.iter().zip(&lines) {
-            let [one, other] = [cone[1] - cone[0], cone[2] - cone[0]];
+            let [one, other] = [cone[1] - cone[0], cone[cone.len() - 1] - cone[0]];
             assert!((0.5 * one.angle(&other) - f64::atan(mu)).abs() < 1e-6, "{name}");
             assert_eq!(*line, [cone[0], meeting]);
             assert!(lies_in(meeting, cone) && overlap.iter().all(|corner| lies_in(*corner, cone)), "{name}");
@@ -68,6 +68,24 @@ fn the_push_meets_both_reactions_within_both_cones() {
         assert!(lies_in(meeting, overlap), "{name}");
         let said = "overlap of both friction cones: however hard it pushes, friction holds it.";
         assert!(sheet.description.contains(said), "{}", sheet.description);
+    }
+}
+
+/// A cone has no end, but the picture has: where everything else is, and 45 units about the place where the forces meet.
+#[test]
+fn wide_cones_do_not_make_the_picture_wider() {
+    for mu in ["0.7", "2", "20"] {
+        let settings = Settings::default().parameter("mu", mu);
+        let case = Case::new(slideway::gallery::find("drawer").unwrap().text, &settings);
+        let jam = &pieces(&case.mechanism, &case.configuration, case.report.as_ref(), None, f64::INFINITY)[1];
+        let is_cone = |class| matches!(class, Class::Cone | Class::Overlap);
+        let [cones, others] = [true, false].map(|wanted| {
+            let elements = jam.scene.elements.iter().filter(|element| is_cone(element.class) == wanted);
+            elements.filter_map(|element| element.shape.bounds()).reduce(Bounds::with).unwrap()
+        });
+        assert_eq!(areas(jam, Class::Cone).len(), 2);
+        let within = others.widened(45.0);
+        assert!(within.least.x <= cones.least.x && cones.greatest.x <= within.greatest.x, "{mu}: {cones:?}");
     }
 }
 
