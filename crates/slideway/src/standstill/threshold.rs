@@ -163,7 +163,7 @@ fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<O
         for (circle, radius) in rough.mechanism.friction_circles.iter_mut().zip(radii) {
             (circle.radius, circle.static_radius) = (radius, radius);
         }
-        is_released(&rough, &directions(&rough, &motions, false), work)
+        is_released(&rough, &directions(&rough, &motions), work)
     };
     let (mut below, mut above) = (from, from * (1.0 + NEAR));
     while slides(above) {
