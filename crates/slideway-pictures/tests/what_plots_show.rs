@@ -73,7 +73,7 @@ fn forces_that_last_are_shown_and_the_greatest_is_named() {
         "{texts:?}"
     );
     assert!(
-        texts.iter().any(|text| text == "\u{2212} +: guide touching at upper right and lower left"),
+        texts.iter().any(|text| text == "\u{2212} +: drawer touching at upper right and lower left"),
         "{texts:?}"
     );
     let points: Vec<PointKind> =
