@@ -244,7 +244,11 @@ pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool
     });
     let joined: Vec<([String; 2], &str)> = joined.collect();
     let place = |([from, to], _): &([String; 2], &str)| {
-        if from == to { format!("at {}", unit.with(from)) } else { format!("from {from} to {}", unit.with(to)) }
+        if from == to {
+            format!("at {}", unit.with(from))
+        } else {
+            format!("from {from} to {}", unit.with(to))
+        }
     };
     let sentence = |same: &[([String; 2], &str)]| {
         let mut places = same.iter().map(place).collect::<Vec<_>>().join(" and ");
