@@ -429,7 +429,7 @@ fn map_answers() {
         (solutions, "84.67 % of the map: one solution. 15.33 %: no solution, friction locks it."),
         (
             jam,
-            "84.67 % of the map: can move in both directions. 15.33 %: can only move against the direction of the model.",
+            "84.67 % of the map: can move in both directions. 15.33 %: can only move in the opposite direction; as in the model friction locks it.",
         ),
         (hold, "100 % of the map: does not hold."),
     ]);
