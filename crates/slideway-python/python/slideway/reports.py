@@ -50,6 +50,7 @@ __all__ = [
     "CoordinateSummary",
     "CoordinateValue",
     "CountLimits",
+    "CountStretch",
     "CoupleRange",
     "Course",
     "CourseDirection",
@@ -1128,6 +1129,20 @@ class CountLimits(Record):
     of the interval lies between them but what is next to ends of modes: `CountLimits::left_out`."""
     spacing: float | None
     """Where they were sampled: the greatest distance between neighbouring values; else null."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CountStretch(Record):
+    """A part of the range of an uncertain parameter."""
+
+    from_: float
+    """Its least value (SI units)."""
+    to: float
+    """Its greatest value."""
+    least_solutions: int
+    """For every value in it there are at least so many solutions."""
+    most_solutions: int | None = None
+    """For every value in it there are at most so many solutions; absent if that could not be proven."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -3011,6 +3026,11 @@ class Uncertainty(Record):
     """For every value there are at least so many solutions."""
     most_solutions: int | None = None
     """For every value there are at most so many solutions; absent if that could not be proven."""
+    proven_counts: tuple[int, ...]
+    """The numbers of solutions that are proven for some values each, in ascending order."""
+    stretches: tuple[CountStretch, ...]
+    """The number of solutions along the parameter, in ascending order of its values; empty with several
+    parameters."""
     modes: tuple[UncertainMode, ...]
     """The modes that exist for some value, and those of which that could not be ruled out."""
     parts: int
