@@ -213,5 +213,5 @@ fn the_page_of_a_range_says_that_it_holds_for_its_middle() {
     assert!(
         html.contains("<strong>In the middle of its range, mu = 0.3 (0.2 to 0.4): It moves: push needs 36.36 N (20 N without friction).</strong>")
     );
-    assert!(html.contains("<p>1 solution for every value, proven with "));
+    assert!(html.contains("<p>One solution for every "));
 }

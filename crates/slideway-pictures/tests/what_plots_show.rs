@@ -47,7 +47,7 @@ fn what_is_excluded_leaves_room_for_the_rest_and_cuts_are_named() {
     let texts = texts(&picture);
     for wanted in [
         "A drawer pushed off-centre: effort over the factor of all friction",
-        "With Q = 20 N, at x = 0",
+        "With Q = 20 N, x = 0",
         // At 85 % of the way to locking it is 20 N / 0.15 = 133 N; the axis has ticks every 50 N.
         "cut at 150 N: grows without bound",
         "excluded: no solution, up to 10 (the axis ends before)",

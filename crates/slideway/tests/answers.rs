@@ -159,7 +159,7 @@ fn hold_answers() {
         (held("bracket-on-pole", &[], None), "It holds."),
         (
             held("bracket-on-pole", &[], Some("W")),
-            "Just self-locking, from mu_static = 0.25, its present value: with any less it slips.",
+            "Just self-locking: it holds any `W` from mu_static = 0.25, its present value; with any less it slips.",
         ),
         (
             held("bracket-on-pole", &[("x", "0.2 m")], Some("W")),
@@ -179,11 +179,11 @@ fn hold_answers() {
         ),
         (
             held(SASH, &[], Some("gravity")),
-            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. Not self-locking: a great enough `gravity` moves it. It would be self-locking from mu_static = 0.6667 (now 0.3).",
+            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. If it were wedged it would hold any `gravity` from mu_static = 0.6667 (now 0.3). `gravity` by itself need not wedge it: do not rely on it.",
         ),
         (
             held(SASH, &wedged, Some("gravity")),
-            "It may hold, or it may start to slide: do not rely on it. While wedged it holds any `gravity` from mu_static = 0.6667 (now 0.7), but `gravity` alone need not wedge it.",
+            "It may hold, or it may start to slide: do not rely on it. While wedged it holds any `gravity` from mu_static = 0.6667 (now 0.7). `gravity` by itself need not wedge it: do not rely on it.",
         ),
         (
             held(GUIDED_TIPS, &[], None),
@@ -195,7 +195,7 @@ fn hold_answers() {
         ),
         (
             held("telescopic-boom", &[], Some("cylinder_1")),
-            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. `cylinder_1` alone would be held, however great, from mu_static = 4 (now 0.1).",
+            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. If it were wedged it would hold any `cylinder_1` from mu_static = 4 (now 0.1). `cylinder_1` by itself need not wedge it: do not rely on it.",
         ),
         (held("telescopic-boom", &[], None), "It does not hold: it starts to slide (s_3: 1.318 m/s^2)."),
     ];

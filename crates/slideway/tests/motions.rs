@@ -594,7 +594,7 @@ fn at_rest_guides_without_friction_slide_nowhere() {
     let model = Model::parse(include_str!("findings/pinched_capsule.toml")).unwrap();
     let history = simulate(&model, &SimulateOptions::new(1.0)).unwrap();
     assert_eq!(history.end, End::Finished);
-    let words = "0 gl is flat on the lower guide; gr is flat on the lower guide; pl sticks; pr sticks";
+    let words = "0 left is flat on the lower guide; right is flat on the lower guide; pl sticks; pr sticks";
     assert_eq!(self::words(&history), [words]);
 }
 

@@ -33,6 +33,27 @@ pub fn is_exchange<'a>(
     one.is_some_and(|sign| sign != Sign::Zero) && signs.all(|sign| sign == one)
 }
 
+/// The most contacts of which all patterns are examined.
+const CONTACTS: u32 = 8;
+
+/// Returns whether every load has exactly one solution, for every value within the bounds: up to eight contacts without
+/// jumps, and all `p(sigma)` of one sign (theory, section 5). `false` says nothing.
+pub fn has_one_solution<'a>(problem: impl Into<ProblemView<'a>>) -> bool {
+    let problem = problem.into();
+    let contacts = problem.contacts();
+    let Some(count) = u32::try_from(contacts).ok().filter(|&count| count <= CONTACTS) else { return false };
+    if (0..contacts).any(|k| problem.has_jump(k)) {
+        return false;
+    }
+    let side = |code: u32, k: usize| {
+        if code >> k & 1 == 0 { ContactState::Positive } else { ContactState::Negative }
+    };
+    let pattern = |code: u32| (0..contacts).map(|k| side(code, k)).collect::<Vec<_>>();
+    let mut signs = (0..1_u32 << count).map(|code| oriented_sign(problem, &pattern(code)));
+    let one = signs.next().flatten();
+    one.is_some_and(|sign| sign != Sign::Zero) && signs.all(|sign| sign == one)
+}
+
 /// The proven sign of `p`.
 fn oriented_sign(problem: ProblemView<'_>, pattern: &[ContactState]) -> Option<Sign> {
     let sign = proven_determinant_sign(problem, pattern)?;
@@ -48,16 +69,19 @@ mod tests {
     use nalgebra::{DMatrix, dmatrix};
 
     /// One slider: `(sigma - mu eta s) y = N(0)`, with `N(0)` from -1 to 1.
-    fn crossing(friction: f64) -> bool {
+    fn slider(friction: f64) -> IntervalModeProblem {
         let range =
             |low, high| IntervalMatrix::from_bounds(&dmatrix![low], &dmatrix![high]).expect("in order");
         let point = |value| range(value, value);
         let columns = BySide { positive: point(1.0 - friction), negative: point(-1.0 - friction) };
         let none = BySide::same(IntervalMatrix::exact(DMatrix::zeros(1, 1)));
-        let problem = IntervalModeProblem::new(&columns, &none, &range(-1.0, 1.0)).expect("sound");
+        IntervalModeProblem::new(&columns, &none, &range(-1.0, 1.0)).expect("sound")
+    }
+
+    fn crossing(friction: f64) -> bool {
         let bounds = || vec![Interval::new(-2.0, 2.0).expect("in order")];
         is_exchange(
-            &problem,
+            &slider(friction),
             &[(vec![ContactState::Positive], bounds()), (vec![ContactState::Negative], bounds())],
         )
     }
@@ -66,6 +90,8 @@ mod tests {
     #[test]
     fn a_force_that_passes_zero_changes_the_side_while_every_load_has_one_solution() {
         assert!(crossing(0.5));
+        assert!(has_one_solution(&slider(0.5)));
+        assert!(!has_one_solution(&slider(1.5)));
         assert!(!crossing(1.5));
         assert!(!crossing(1.0));
     }

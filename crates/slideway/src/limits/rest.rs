@@ -90,6 +90,9 @@ fn rest_limits_of(
     })
 }
 
+/// Part of a value within which a linear program does not decide whether something rests: ten times its tolerance.
+const LEFT_OPEN: f64 = 1e-8;
+
 /// The range cut where the answer changes.
 fn spans(tried: &[Sample<Found>], answer: &dyn Fn(f64) -> Found, same_ends: &SameEnds) -> Vec<SpanOfRest> {
     let scan = Scan { answer, is_like: is_same, narrowest: same_ends.within };
@@ -100,7 +103,21 @@ fn spans(tried: &[Sample<Found>], answer: &dyn Fn(f64) -> Found, same_ends: &Sam
         };
         SpanOfRest { from: same_ends.told(from), to: same_ends.told(to), holds, may_slip, reason }
     };
-    scan.adjoining(tried).into_iter().map(span).collect()
+    let mut spans: Vec<SpanOfRest> = Vec::new();
+    for span in scan.adjoining(tried).into_iter().map(span) {
+        match spans.last_mut() {
+            // Where both begin at one value, it holds up to it or from it on.
+            Some(last) if is_rounding(last) => *last = SpanOfRest { from: last.from, ..span },
+            Some(last) if is_rounding(&span) => last.to = span.to,
+            _ => spans.push(span),
+        }
+    }
+    spans
+}
+
+/// Whether a stretch that holds only while wedged is no wider than what linear programs leave open.
+fn is_rounding(span: &SpanOfRest) -> bool {
+    span.may_slip && span.to - span.from <= LEFT_OPEN * span.from.abs().max(span.to.abs())
 }
 
 /// True if two values have the same answer, or none for the same kind of reason.

@@ -62,14 +62,11 @@ impl Report for RestLimitsReport {
 }
 
 impl RestLimitsReport {
-    /// A sentence for each stretch; a single value beside it is not said to be in it. Between answers that change at one
-    /// value rounding can leave a stretch too narrow to be shown.
+    /// A sentence for each stretch; a single value beside it is not said to be in it.
     fn in_sentences(&self) -> Vec<String> {
-        let precise = |at: f64| self.vary.shown_in.precise(at);
-        let is_shown = |span: &SpanOfRest| span.from == span.to || precise(span.from) != precise(span.to);
         let is_alone =
             |span: Option<&SpanOfRest>, at: f64| span.is_some_and(|span| [span.from, span.to] == [at; 2]);
-        let spans = self.spans.iter().enumerate().filter(|(_, span)| is_shown(span));
+        let spans = self.spans.iter().enumerate();
         let sentence = |(index, span): (usize, &SpanOfRest)| {
             let before = index.checked_sub(1).and_then(|before| self.spans.get(before));
             let ends = [is_alone(before, span.from), is_alone(self.spans.get(index + 1), span.to)];

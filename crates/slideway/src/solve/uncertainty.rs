@@ -10,7 +10,7 @@ use super::state::{pattern, pressed, signs};
 use crate::enclosure::{EnclosedModeProblem, Tipping, UncertainParameters, enclosed_while, enclosure_within};
 use crate::interval::{Interval, Real};
 use crate::model::{Model, ParameterRange};
-use crate::modes::certificate::is_exchange;
+use crate::modes::certificate::{has_one_solution, is_exchange};
 use crate::modes::{Certificate, Completeness, ContactState, OpenContacts, SearchResult, StateLists, search};
 use crate::progress::Callback;
 use crate::report::{self, Persistence};
@@ -60,12 +60,11 @@ pub(super) struct Found {
 }
 
 impl Found {
-    /// These modes; `exchange` if exactly one of those that may be or not is a solution for every value.
-    fn of(modes: BTreeMap<Vec<ContactState>, Presence>, open: &OpenContacts, exchange: bool) -> Self {
+    /// These modes, each of which may be a solution independently of the others.
+    fn of(modes: BTreeMap<Vec<ContactState>, Presence>, open: &OpenContacts) -> Self {
         let solutions = || modes.iter().filter(|(mode, _)| open.is_solution(mode)).map(|(_, found)| found);
-        let certain: usize = solutions().map(|found| found.certain).sum();
-        let possible = solutions().map(|found| found.possible).sum();
-        let (least, most) = if exchange { (certain + 1, certain + 1) } else { (certain, possible) };
+        let least = solutions().map(|found| found.certain).sum();
+        let most = solutions().map(|found| found.possible).sum();
         Self { modes, least, most }
     }
 
@@ -166,8 +165,15 @@ impl Answer<'_> {
         for undecided in &lists.undecided {
             add(undecided.pattern.clone(), undecided.unknowns.as_deref(), false);
         }
-        let exchange = doubtful.is_some_and(|doubtful| is_exchange(&enclosed.problem, &doubtful));
-        Ok(Found::of(modes, &enclosed.open, exchange))
+        let mut found = Found::of(modes, &enclosed.open);
+        if let Some(doubtful) = doubtful.filter(|doubtful| !doubtful.is_empty()) {
+            if has_one_solution(&enclosed.problem) {
+                (found.least, found.most) = (1, 1);
+            } else if is_exchange(&enclosed.problem, &doubtful) {
+                (found.least, found.most) = (found.least + 1, found.least + 1);
+            }
+        }
+        Ok(found)
     }
 
     /// A mode in which guided sliders tip, with those in their preload gap that may be without normal force

@@ -134,7 +134,9 @@ fn locks(load: &LoadReport, holds_all: bool) -> String {
         return match (load.self_locking, load.held.as_slice()) {
             // Together with the other loads it does not hold every multiple of this one.
             (true, _) if !holds_all => format!("By itself `{name}` is held, however great, {from}."),
-            (true, _) if is_just => format!("Just self-locking, {from}: with any less it slips."),
+            (true, _) if is_just => {
+                format!("Just self-locking: it holds any `{name}` {from}; with any less it slips.")
+            }
             (true, _) => format!("Self-locking: it holds any `{name}` {from}."),
             // That a great enough one moves it has been said.
             (false, []) => format!("`{name}` alone would be held, however great, {from}."),

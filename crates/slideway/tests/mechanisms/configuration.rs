@@ -312,9 +312,9 @@ fn a_state_out_of_reach_names_the_joint_that_stays_open() {
     // At best rod and crank stand in line: 50 mm - 45 mm are missing, wherever the gap is left.
     let reached = reached.as_deref().unwrap_or_default();
     assert!(gap.ends_with('m') && reached.starts_with("phi = "), "{gap} {reached}");
-    // It can come as far as sin(phi) = 45/50; the state is told in degrees, with eight digits.
+    // It can come as far as sin(phi) = 45/50; the state is told in degrees, with six digits.
     let reached: f64 = reached.split_whitespace().nth(2).unwrap().parse().unwrap();
-    assert!((reached - (0.9_f64).asin().to_degrees()).abs() < 1e-5, "{reached}");
+    assert!((reached - (0.9_f64).asin().to_degrees()).abs() <= 0.5e-4, "{reached}");
 }
 
 #[test]

@@ -532,7 +532,7 @@ fn an_angle_is_sized_in_its_quarter_turn() {
     let wedge = against_locking(&model("wedge"), "alpha", 2.0);
     assert_eq!((wedge.met[0].from, wedge.met[0].from_is), (0.0, MetEnd::NoPosition));
     assert_eq!([wedge.without_position[0].from, wedge.without_position[0].to], [0.0, 0.0]);
-    assert!(wedge.conclusion[0].contains("alpha from 0 deg, below which there is no answer, to 56.6"));
+    assert!(wedge.conclusion[0].contains("alpha from 0 deg, where there is no answer, to 56.6"));
     // A length keeps the factor.
     let report = against_locking(&model("cam-follower"), "d", 2.0);
     assert!((report.vary.to / report.vary.from - 25.0).abs() < 1e-12);

@@ -210,7 +210,7 @@ fn a_rate_that_is_not_given_is_not_told_as_one() {
 /// The same sentence wherever a load that friction stops could be taken for one that does not jam.
 #[test]
 fn every_answer_on_a_load_says_how_to_ask_whether_it_jams() {
-    const HOW: &str = "To ask whether it jams, add a drive, or see `slideway hold`.";
+    const HOW: &str = "Whether it jams, however hard it is pushed, is a question about a drive: add one, or see `slideway hold`.";
     let told = |push: &str| -> Vec<String> {
         let model = Model::parse(&peg("0.3", push)).unwrap();
         let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 0.5))).unwrap();
