@@ -343,7 +343,7 @@ fn the_heading_tells_settings_and_reasons() {
     };
     let lines = [
         "Forces at contacts are not drawn: the acceleration cannot be computed,",
-        "With mu_1 = 0.3, q = -0.4 m.",
+        "With mu_1 = 0.3.",
         "The mechanism, to scale",
     ];
     let [first, second, third] = lines.map(|line| place(&told, line).unwrap_or_else(|| panic!("{line}")));

@@ -138,10 +138,10 @@ impl Words<'_> {
                 let hits =
                     format!("{} hits the stop at its {} displacement", self.name(*joint), end(*greatest));
                 let [before, after] = speeds.map(|speed| self.mechanism.units.of("m/s").brief(speed));
-                let bounces = if against(speeds[1], speeds[0]) != "0" {
-                    format!("and bounces back with {after}")
-                } else {
+                let bounces = if against(speeds[1], speeds[0]) == "0" {
                     "without bouncing".to_owned()
+                } else {
+                    format!("and bounces back with {after}")
                 };
                 match energy_lost {
                     Some(energy) => {
