@@ -66,10 +66,10 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             plain(MARGINS[step])
         }
         ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => plain(BOTH),
-        ClassMeaning::Moves { as_in_model: true, .. } => plain(LOCKED_IN_OPPOSITE),
+        ClassMeaning::Moves { as_in_model: true, .. }
+        | ClassMeaning::Rest { holds: Some(true), may_slip: true } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
         ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
-        ClassMeaning::Rest { holds: Some(true), may_slip: true } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Rest { holds: Some(true), .. } => plain(numbers[1]),
         ClassMeaning::Rest { holds: Some(false), .. } => plain(SLIPS),
         ClassMeaning::Continuum => plain(theme.ink),
