@@ -35,7 +35,7 @@ pub fn ranges((model, question, numbers, [from, to]): (u8, u8, [u8; 2], [f64; 2]
         2 => told(rest_limits_with(&model, &vary, &HoldOptions::default(), &mut callback)),
         3 => told(size_with(&model, &SizeOptions::new(vary, 2.0), &mut callback)),
         4 => {
-            told(size_with(&model, &SizeOptions::new(vary, 0.5).against(Against::Efficiency), &mut callback))
+            told(size_with(&model, &SizeOptions::new(vary, 0.5).against(Against::Efficiency), &mut callback));
         }
         5 => told(map_with(&model, &MapOptions::new(vary, along).size(8, 8), &mut callback)),
         _ => {

@@ -5,6 +5,7 @@
 mod command;
 
 use command::{command, slideway};
+use std::fmt::Write as _;
 use std::fs;
 use std::io::Read;
 use std::path::Path;
@@ -64,12 +65,13 @@ fn bars(folder: &Path, number: usize) -> String {
     );
     for bar in 1..=number {
         let above = bar - 1;
-        points += &format!("p{bar} = [{}, 0]\n", 0.1 * bar as f64);
-        rest += &format!(
+        writeln!(points, "p{bar} = [{}, 0]", 0.1 * bar as f64).unwrap();
+        write!(
+            rest,
             "[bodies.b{bar}]\npoints = ['p{above}', 'p{bar}']\nmass = 1\nmoment_of_inertia = 0.01\ncentre_of_mass = 'p{bar}'\n\
              [joints.h{bar}]\ntype = 'hinge'\nbetween = ['b{bar}.p{above}', 'b{above}.p{above}']\n\
              [coordinates.q{bar}]\nrotation = 'b{bar}'\nrate = 0.1\n"
-        );
+        ).unwrap();
     }
     let path = folder.join("bars.toml");
     fs::write(&path, points + &rest).unwrap();

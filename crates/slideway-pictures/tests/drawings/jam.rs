@@ -121,7 +121,7 @@ fn only_what_friction_locks_has_the_picture() {
 #[test]
 fn redundant_guides_have_the_picture_with_their_open_contacts() {
     let plays = [("mu", "0.9"), ("play_left", "0.6 mm"), ("play_right", "0.2 mm")];
-    let settings = plays.iter().fold(Settings::default(), |all, (name, value)| all.parameter(*name, *value));
+    let settings = plays.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, *value));
     let case = Case::new(slideway::gallery::find("drawer-on-two-rails").unwrap().text, &settings);
     let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref(), Shown::All).unwrap();
     let locking = locking(case.report.as_ref().unwrap(), &case.mechanism, &case.configuration).unwrap();
