@@ -142,7 +142,11 @@ class Program:
 
     def run_in_folder(self, command: list[str]) -> tuple[str, str]:
         """What it says to a command, and its complaints."""
-        done = subprocess.run([self.path, *command], cwd=self.folder, capture_output=True, text=True, check=False)
+        # In words as wide as those of Python, which knows no terminal: some terminals and test runners say theirs.
+        environment = {name: value for name, value in os.environ.items() if name != "COLUMNS"}
+        done = subprocess.run(
+            [self.path, *command], cwd=self.folder, env=environment, capture_output=True, text=True, check=False
+        )
         return done.stdout, done.stderr
 
     def json(self, command: list[str], text: str, name: str = "model.toml") -> tuple[str, str]:

@@ -102,7 +102,7 @@ def test_a_model_without_a_position_is_shown_with_what_is_wrong():
     with pytest.raises(slideway.ModelError):
         apart.solve()
     text = apart._repr_html_()
-    assert "Cannot be solved" in text and "the overlap of slide_1" in text
+    assert "Cannot be solved" in text and "an overlap of -999.4 m at a displacement of 1000 m" in text
     Tags(text)
 
 

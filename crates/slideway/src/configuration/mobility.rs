@@ -308,7 +308,7 @@ pub(crate) fn moved_by(motion: DVector<f64>, loads: &DVector<f64>) -> DVector<f6
     if forwards < 0.0 { -motion } else { motion }
 }
 
-/// Whether every motion meets inertia, whatever the joints leave: that of the motions of [`free_motions`]
+/// Returns whether every motion meets inertia, whatever the joints leave: that of the motions of [`free_motions`]
 /// lies between the least and the greatest of the bodies.
 pub(crate) fn every_motion_has_inertia(mechanism: &Mechanism) -> bool {
     let square = mechanism.size * mechanism.size;
