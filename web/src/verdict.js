@@ -106,9 +106,7 @@ export class Verdict {
       ? ""
       : answer.partial
         ? "The search was ended early: there may be more."
-        : answer.complete === "proven"
-          ? "The list is proven complete."
-          : "That these are all is not proven.";
+        : answer.known;
     const why = reasons.map((reason) => element("li", {}, reason));
     this.#say(status, `${SIGNS[status] ?? "–"} ${words}`, certainty, why);
   }

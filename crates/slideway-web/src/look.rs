@@ -12,7 +12,7 @@ use slideway::fault::Faults;
 use slideway::model::Model;
 use slideway::printable::line;
 use slideway::progress::Callback;
-use slideway::report::{Proof, SolveReport, Status};
+use slideway::report::{SolveReport, Status};
 use slideway::warning::{ranges_at_middle, warnings};
 use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Held, Sheet, title};
@@ -51,9 +51,10 @@ struct Drawing {
 #[derive(Debug, Serialize)]
 struct Verdict {
     status: Status,
-    complete: Proof,
     /// Whether the search ended early.
     partial: bool,
+    /// How it is known.
+    known: String,
     count: String,
     words: String,
     /// The pattern of each solution.
@@ -66,8 +67,8 @@ impl Verdict {
     fn of(report: &SolveReport) -> Self {
         Self {
             status: report.status,
-            complete: report.complete,
             partial: report.partial,
+            known: report.known_in_words(),
             count: report.count.clone(),
             // What a glance takes in beside the drawing.
             words: [report.verdict_in_words()]

@@ -32,7 +32,7 @@ fn answer(model: &Model) -> String {
 fn a_drawer_moves_or_jams() {
     assert_eq!(
         answer(&model("drawer")),
-        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction); below \
+        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). Below \
          that no load jams it while it moves."
     );
     assert_eq!(

@@ -61,11 +61,8 @@ impl SolveReport {
         let any_load = self.any_load_in_words(margins);
         match jams {
             Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
-                let end = end_in_words(margins, &at(jams));
-                return vec![format!(
-                    "{}; below that no load jams it while it moves.",
-                    end.trim_end_matches('.')
-                )];
+                let safe = "Below that no load jams it while it moves.".to_owned();
+                return vec![end_in_words(margins, &at(jams)), safe];
             }
             Some(jams) => sentences.push(end_in_words(margins, &at(jams))),
             None if margins.another_count.is_none() && self.has_friction() => {
@@ -90,7 +87,7 @@ impl SolveReport {
     }
 
     /// How the answer is known, and which states there are beside solutions: "Proven: it is the only solution."
-    pub(super) fn known_in_words(&self) -> String {
+    pub fn known_in_words(&self) -> String {
         let gaps = match self.gap_state_count.as_str() {
             states if states == "0" || self.solutions.is_empty() => String::new(),
             "1" => " One more state is in a preload gap.".to_owned(),

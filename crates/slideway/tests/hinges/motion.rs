@@ -366,3 +366,13 @@ fn hinges_that_never_turn_are_refused() {
     let expected = FaultKind::HingeDoesNotTurn { hinge: "A".to_owned(), why: NoSliding::Never };
     assert_eq!(faults.sorted()[0].kind, expected);
 }
+
+/// Followed past the end of its way: where the links lie on one another, alpha = -90 degrees at (pi/2 + 5 deg)/(1 rad/s),
+/// its drive goes on, and no impulse stops what is driven. This is found at once, not by a search without an end.
+#[test]
+fn no_impulse_stops_what_is_driven() {
+    let press = Model::parse(gallery::find("toggle-press").unwrap().text).unwrap();
+    let history = simulate(&press, &SimulateOptions::new(2.0)).unwrap();
+    assert_eq!(history.end, End::Jammed, "{:?}", history.events.last());
+    is_near(history.stop(), (90.0_f64 + 5.0).to_radians(), 1e-5);
+}

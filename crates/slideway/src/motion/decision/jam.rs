@@ -143,7 +143,12 @@ struct ImpulseSearch<'s> {
 impl ImpulseSearch<'_> {
     /// Looks for impulses in which this joint or hinge wedges, or these of a group together.
     fn stop(&self, wedged: &[usize], found: &mut ImpulsesFound) -> Result<(), Faults> {
-        let Instant { groups, joints, .. } = self.impulses.instant;
+        let instant = self.impulses.instant;
+        // What is driven goes on: its impulse would move nothing, and so nothing moves it.
+        if !wedged.iter().all(|number| instant.is_movable(*number, &[])) {
+            return Ok(());
+        }
+        let Instant { groups, joints, .. } = instant;
         let is_of = |group: &&Group| group.members(joints.len()).any(|number| number == wedged[0]);
         let Some(group) = groups.iter().find(is_of) else { return Ok(()) };
         let stopped = vec![false; self.velocities.len()];
