@@ -116,7 +116,8 @@ impl Values {
                 exact_signed[*at] = Some(if self.signed[*at] < 0.0 { -value } else { value });
             }
         }
-        let [signed, shares] = [exact_signed, exact_shares].map(|values| values.into_iter().collect::<Option<Vec<RBig>>>());
+        let [signed, shares] =
+            [exact_signed, exact_shares].map(|values| values.into_iter().collect::<Option<Vec<RBig>>>());
         equations.exact_residual(&signed?, &shares?)
     }
 }

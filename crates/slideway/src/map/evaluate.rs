@@ -64,7 +64,11 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Why there is no answer in the middle of the plane, where there is none at any point that was tried, for these reasons.
-    pub(super) fn no_answer<'c>(&self, mut tried: impl Iterator<Item = &'c ClassKey>, work: Work<'_>) -> Faults {
+    pub(super) fn no_answer<'c>(
+        &self,
+        mut tried: impl Iterator<Item = &'c ClassKey>,
+        work: Work<'_>,
+    ) -> Faults {
         let middle = self.axes.each_ref().map(|axis| f64::midpoint(axis.range[0], axis.range[1]));
         let faults = match &self.forwards {
             None => self.rests(middle, work).err(),
