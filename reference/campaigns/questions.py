@@ -140,7 +140,8 @@ class Asked:
             if answer is None or self.delicate(answer):
                 continue
             meaning, status = found["meaning"], answer["status"]
-            true = {"continuum": {"kind": "continuum"}, "none": {"kind": "locked"}}.get(status) or {
+            none = "tips" if answer["rejected"] else "locked"
+            true = {"continuum": {"kind": "continuum"}, "none": {"kind": none}}.get(status) or {
                 "kind": "solutions", "solutions": int(answer["count"]), "preload_gap_states": int(answer["gap_state_count"])}
             if any(meaning.get(k) != v for k, v in true.items()):
                 self.fault("map: class", command, report, f"solve at {self.name} = {value!r}: {status}, {true}")

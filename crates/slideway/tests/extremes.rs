@@ -4,12 +4,16 @@
 
 use proptest::prelude::*;
 use slideway::check::{check, check_with};
+use slideway::configuration::Configuration;
 use slideway::drive::{drive, drive_with};
 use slideway::fault::{Fault, FaultKind, Faults, Source};
 use slideway::gallery::{MODELS, find, telescopic_boom};
 use slideway::limits::{FRICTION, limits_with, rest_limits_with};
 use slideway::map::map_with;
+use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
+
+use slideway::motion::{SimulateOptions, Thorough, simulate_with};
 use slideway::report::{Proof, SolveReport, Status, Style};
 use slideway::size::{Against, size_with};
 use slideway::solve::{SolveOptions, solve, solve_with};
@@ -107,6 +111,10 @@ fn the_way_from_the_drawing_ends_where_the_callback_says_so() {
 
 /// Bars, one hanging on the other, and a block in a guide at the end.
 fn chain(bars: usize) -> Model {
+    Model::parse(&chain_text(bars)).unwrap()
+}
+
+fn chain_text(bars: usize) -> String {
     let point = |at: usize| format!("P{at} = [{}, {}]\n", 0.05 * at as f64, 0.01 * (at % 3) as f64);
     let bar = |at: usize| {
         let next = at + 1;
@@ -127,8 +135,49 @@ fn chain(bars: usize) -> Model {
     let rate = |at: usize| format!("[coordinates.q{at}]\nrotation = 'b{at}'\nrate = '0.1 rad/s'\n");
     let [points, bars, rates]: [String; 3] =
         [(0..=bars).map(point).collect(), (0..bars).map(bar).collect(), (0..last).map(rate).collect()];
-    let text = format!("[points]\n{points}{bars}{block}{rates}");
-    Model::parse(&text).unwrap()
+    format!("[points]\n{points}{bars}{block}{rates}")
+}
+
+/// A chain of bars on rough pins.
+fn rough_chain(bars: usize, rate: &str) -> Model {
+    let text = chain_text(bars).replace("'0.1 rad/s'", rate);
+    Model::parse(&text.replace("type = 'hinge'\n", "type = 'hinge'\nfriction_radius = '1 mm'\n")).unwrap()
+}
+
+/// Which of 66 joints at rest begin to move is more than the bits of a number say.
+#[test]
+fn very_many_joints_at_rest_are_decided() {
+    let mechanism = Mechanism::new(&rough_chain(64, "0")).unwrap();
+    let configuration = Configuration::new(&mechanism).unwrap();
+    let mut calls = 0;
+    let mut look = |_: &_| {
+        calls += 1;
+        if calls < 50 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let options = SimulateOptions::new(1e-3);
+    let history = simulate_with(&mechanism, &configuration, &options, &mut Thorough, &mut look);
+    assert!(history.is_ok(), "{}", history.unwrap_err());
+    assert!(calls >= 50);
+}
+
+/// Bars that turn alike do not turn the pins between them, at any value of the range: each value takes long beside many pins,
+/// so that each is told.
+#[test]
+fn values_without_an_answer_are_told_one_by_one() {
+    let options = LimitsOptions::new(Vary::between("friction", 0.5, 2.0));
+    let calls_until = |most: usize| {
+        let mut calls = 0;
+        let report = limits_with(&rough_chain(4, "'0.1 rad/s'"), &options, &mut |_| {
+            calls += 1;
+            if calls < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
+        (report.is_ok_and(|report| report.is_none()), calls)
+    };
+    let (_, calls) = calls_until(usize::MAX);
+    assert!(calls > 100, "{calls}");
+    for most in [calls / 4, calls / 2] {
+        assert_eq!(calls_until(most), (true, most));
+    }
 }
 
 /// A step of the assembly, and the equations, take long with hundreds of bodies: both end while they are eliminated.

@@ -521,3 +521,14 @@ fn what_rounding_does_not_change_gets_no_hint() {
     );
     assert_eq!(answer(br#"{"M": [[2]], "q": [-1]}"#), None);
 }
+
+/// What names an archive has is told, but not every one of thousands.
+#[test]
+fn long_lists_of_names_are_cut() {
+    let names = |count: usize| (0..count).map(|at| format!("\"a{at}\": 0")).collect::<Vec<_>>().join(", ");
+    let told = |count: usize| {
+        RawProblem::from_json(format!("{{{}}}", names(count)).as_bytes()).unwrap_err().to_string()
+    };
+    assert!(told(20).contains("`a18` and `a19`"), "{}", told(20));
+    assert!(told(7000).contains("and 6980 more") && told(7000).len() < 1000, "{}", told(7000));
+}

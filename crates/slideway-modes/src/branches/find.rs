@@ -41,7 +41,12 @@ pub struct BranchOptions {
 
 /// All branches in a range, as far as the values show them; what was found until the work ended.
 pub fn branches(family: &Family<'_>, options: &BranchOptions, work: Work<'_>) -> Branches {
+    // Once the work is over there is no problem anywhere, so that whatever seeks one ends.
+    let family = &|at: f64| if work.is_over() { Err(NoInstance::Other) } else { family(at) };
     let (stretches, gaps) = stretches(family, options);
+    if work.is_over() {
+        return Branches::default();
+    }
     let mut all = Branches { gaps, ..Branches::default() };
     for (index, stretch) in stretches.iter().enumerate() {
         let within = |at: f64| {

@@ -293,7 +293,7 @@ impl<'a> Teller<'a> {
     /// unknown. It ignores the values that `radius` ignores.
     fn exact_radius(&self, exact_unknowns: &mut ExactUnknowns<'_>, values: &Values) -> Option<f64> {
         let mut distance = |at: usize| {
-            let error = exact_unknowns.of(at)? - exact(values.signed[at].abs());
+            let error = exact_unknowns.of(at)? - exact(values.signed[at].abs())?;
             Some(Interval::around_ratio(&error).magnitude())
         };
         self.told_values(values).try_fold(0.0, |most: f64, at| Some(most.max(distance(at)?)))

@@ -306,11 +306,18 @@ fn entries(count: usize) -> String {
     if count == 1 { "1 entry".to_owned() } else { format!("{count} entries") }
 }
 
+/// So many names are listed; of more only their number.
+const MOST_LISTED: usize = 20;
+
 /// "`A`, `B` and `b`"
 fn listed<S: AsRef<str>>(names: &[S]) -> String {
-    let quoted: Vec<String> = names.iter().map(|name| format!("`{}`", name.as_ref())).collect();
-    match quoted.as_slice() {
+    let (shown, left) = names.split_at(names.len().min(MOST_LISTED));
+    let mut listed: Vec<String> = shown.iter().map(|name| format!("`{}`", name.as_ref())).collect();
+    if !left.is_empty() {
+        listed.push(format!("{} more", left.len()));
+    }
+    match listed.as_slice() {
         [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
-        names => names.concat(),
+        listed => listed.concat(),
     }
 }

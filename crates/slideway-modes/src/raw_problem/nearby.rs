@@ -13,6 +13,7 @@ use nalgebra::{DMatrix, DVector};
 use super::RawProblem;
 use super::correspondence::Correspondence;
 use super::report::{WithinRounding, WithinRoundingAnswer};
+use super::residual::exact;
 use super::values::Sums;
 use crate::dense::singular_values;
 use crate::interval_matrix::IntervalMatrix;
@@ -165,11 +166,6 @@ impl<'a> Nearby<'a> {
             magnitude(left - right) <= radius && &relative * size < most
         })
     }
-}
-
-/// The number, if it is finite.
-fn exact(value: f64) -> Option<RBig> {
-    RBig::try_from(value).ok()
 }
 
 fn magnitude(value: RBig) -> RBig {

@@ -92,8 +92,8 @@ impl<'a> Equations<'a> {
     }
 
     /// Returns the residual for these `N` and shares, relative to the largest sum of sizes of terms in an
-    /// equation, computed in exact arithmetic.
-    pub(super) fn exact_residual(&self, signed: &[RBig], shares: &[RBig]) -> f64 {
+    /// equation, computed in exact arithmetic; `None` if a number of the equations is not finite.
+    pub(super) fn exact_residual(&self, signed: &[RBig], shares: &[RBig]) -> Option<f64> {
         let size = |value: &RBig| if *value < RBig::ZERO { -value } else { value.clone() };
         let above_zero = |value: RBig| if value < RBig::ZERO { RBig::ZERO } else { value };
         let factor = |factor, at: usize| match factor {
@@ -111,13 +111,13 @@ impl<'a> Equations<'a> {
             .collect();
         let (mut most_left, mut most) = (RBig::ZERO, RBig::ZERO);
         for row in 0..signed.len() {
-            let mut left = -exact(self.load[row]);
+            let mut left = -exact(self.load[row])?;
             let mut sizes = size(&left);
             for ((matrix, _), factors) in self.terms.iter().zip(&factors) {
                 for (column, factor) in factors.iter().enumerate() {
                     let entry = matrix[(row, column)];
                     if entry != 0.0 && !factor.is_zero() {
-                        let term = exact(entry) * factor;
+                        let term = exact(entry)? * factor;
                         sizes += size(&term);
                         left += term;
                     }
@@ -126,11 +126,11 @@ impl<'a> Equations<'a> {
             most_left = most_left.max(size(&left));
             most = most.max(sizes);
         }
-        if most.is_zero() { 0.0 } else { nearest(&(most_left / most)) }
+        Some(if most.is_zero() { 0.0 } else { nearest(&(most_left / most)) })
     }
 }
 
-/// A finite number as a fraction.
-pub(super) fn exact(value: f64) -> RBig {
-    RBig::try_from(value).unwrap_or(RBig::ZERO)
+/// A number as a fraction, if it is finite.
+pub(super) fn exact(value: f64) -> Option<RBig> {
+    RBig::try_from(value).ok()
 }

@@ -106,17 +106,19 @@ impl Values {
         if let Some(residual) = Some(()).filter(|()| self.beyond.is_empty()).and_then(|()| plain()) {
             return Some(residual);
         }
-        let mut exact_signed: Vec<RBig> = self.signed.iter().map(|&value| exact(value)).collect();
-        let mut exact_shares: Vec<RBig> = shares.iter().map(|&value| exact(value)).collect();
+        let mut exact_signed: Vec<Option<RBig>> = self.signed.iter().map(|&value| exact(value)).collect();
+        let mut exact_shares: Vec<Option<RBig>> = shares.iter().map(|&value| exact(value)).collect();
         for (at, value) in &self.beyond {
             let value = value.clone()?;
             if pattern[*at] == ContactState::Gap {
-                exact_shares[*at] = value;
+                exact_shares[*at] = Some(value);
             } else {
-                exact_signed[*at] = if self.signed[*at] < 0.0 { -value } else { value };
+                exact_signed[*at] = Some(if self.signed[*at] < 0.0 { -value } else { value });
             }
         }
-        Some(equations.exact_residual(&exact_signed, &exact_shares))
+        let [signed, shares] =
+            [exact_signed, exact_shares].map(|values| values.into_iter().collect::<Option<Vec<RBig>>>());
+        equations.exact_residual(&signed?, &shares?)
     }
 }
 
@@ -135,9 +137,9 @@ fn beyond_range(
     };
     let told_of = |quantity: &Quantity| {
         let &Quantity { name, index, sign, shift } = quantity;
-        let value = size.map(|size| exact(shift) + exact(sign) * size);
+        let value = size.and_then(|size| Some(exact(shift)? + exact(sign)? * size));
         let sign = value.as_ref().map_or(sign, |value| if *value < RBig::ZERO { -1.0 } else { 1.0 });
-        let size = value.map(|value| exact(sign) * value);
+        let size = value.map(|value| if sign < 0.0 { -value } else { value });
         BeyondRange { name, index, value: told(sign, signed, size.as_ref()) }
     };
     quantities.iter().filter(is_beyond).map(told_of).collect()
@@ -167,14 +169,17 @@ impl Sums {
 
     /// Adds the one of a contact with this exact value.
     pub(super) fn insert(&mut self, correspondence: &Correspondence, contact: usize, size: &RBig) {
-        if let Some((bound, sign)) = correspondence.shift(contact) {
-            let exact_sum = exact(bound) + exact(sign) * size;
+        if let Some((bound, sign)) = correspondence.shift(contact)
+            && let (Some(bound), Some(sign)) = (exact(bound), exact(sign))
+        {
+            let exact_sum = bound + sign * size;
             let value = match nearest(&exact_sum) {
                 // A sum that is not zero is told as one too small for a number, and never as zero.
                 0.0 if !exact_sum.is_zero() => f64::from_bits(1),
                 value => value,
             };
-            let error = if value.is_finite() { exact_sum - exact(value) } else { RBig::ZERO };
+            // A sum beyond the range of numbers is told by its digits.
+            let error = exact(value).map_or(RBig::ZERO, |value| exact_sum - value);
             self.0.insert(contact, (value, Interval::around_ratio(&error).magnitude()));
         }
     }

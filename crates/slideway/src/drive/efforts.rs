@@ -55,6 +55,14 @@ impl Efforts {
         varied.at(value, Self::new)
     }
 
+    /// [`Efforts::at`], where contacts may stand still, whose friction no pattern tells; and whether some do.
+    ///
+    /// # Errors
+    /// Whatever `solve` refuses there.
+    pub(crate) fn at_any(varied: &Varied, value: f64) -> Result<(Self, bool), Faults> {
+        varied.at_any(value, |stages| Ok((Self::new(stages)?, !stages.standing.is_empty())))
+    }
+
     /// The efforts in the solution of a pattern; none where its determinant vanishes.
     pub(crate) fn of(&self, pattern: &[ContactState]) -> Option<Vec<f64>> {
         let unknowns = self.line.unknowns(pattern, 0.0)?;

@@ -19,8 +19,14 @@ use std::ops::ControlFlow;
 /// How near to an end growth is judged, as fractions of the range.
 const NEAR: [f64; 2] = [1e-4, 1e-6];
 
-/// Text that says what the search can miss.
-const GUARANTEE: &str = "Every row is solved by itself, and so are 501 evenly spaced values. Where the number of solutions differs between two of them, the change is found by bisection. What begins and ends between two of these values is missed.";
+/// Says what the search can miss.
+fn guarantee() -> Guarantee {
+    let words = format!(
+        "Every row is solved by itself, and so are {} evenly spaced values. Where the number of solutions differs between two of them, the change is found by bisection. What begins and ends between two of these values is missed.",
+        STEPS + 1
+    );
+    Guarantee { sampled: true, words }
+}
 
 /// The efforts in one direction of motion, and what can be missed.
 ///
@@ -50,7 +56,7 @@ pub(super) fn direction(
     let modes = modes(&rows, &Naming::new(varied.model())?);
     let without_mode_problem = Vec::new();
     Ok((
-        Guarantee { sampled: true, words: GUARANTEE.to_owned() },
+        guarantee(),
         CourseDirection { direction, rows, modes, blow_ups, peaks: Vec::new(), locked, without_mode_problem },
     ))
 }

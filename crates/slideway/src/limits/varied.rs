@@ -488,7 +488,11 @@ impl Varied {
     ///
     /// # Errors
     /// Whatever `solve` refuses there, and those of the question.
-    fn at_any<R>(&self, value: f64, question: impl Fn(&Stages) -> Result<R, Faults>) -> Result<R, Faults> {
+    pub(crate) fn at_any<R>(
+        &self,
+        value: f64,
+        question: impl Fn(&Stages) -> Result<R, Faults>,
+    ) -> Result<R, Faults> {
         if let Some(stages) = &self.stages {
             return question(&stages.with_friction(value));
         }

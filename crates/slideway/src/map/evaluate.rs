@@ -63,16 +63,25 @@ impl<'a> Evaluator<'a> {
         points.map(|values| self.class(values, &mut trails, work)).collect()
     }
 
-    /// Why there is no answer in the middle of the plane, where there is none anywhere.
-    pub(super) fn no_answer(&self, work: Work<'_>) -> Faults {
+    /// Why there is no answer in the middle of the plane, where there is none at any point that was tried, for these reasons.
+    pub(super) fn no_answer<'c>(
+        &self,
+        mut tried: impl Iterator<Item = &'c ClassKey>,
+        work: Work<'_>,
+    ) -> Faults {
         let middle = self.axes.each_ref().map(|axis| f64::midpoint(axis.range[0], axis.range[1]));
         let faults = match &self.forwards {
             None => self.rests(middle, work).err(),
             Some(source) => source.point(self.axes, middle, &mut Before::default(), work).err(),
         };
-        let faults = faults.unwrap_or_default();
-        let sorted = faults.sorted();
-        let reason = sorted.first().map_or_else(String::new, |fault| fault.kind.with_hint());
+        let in_middle = faults.as_ref().and_then(|faults| Some(faults.sorted().first()?.kind.with_hint()));
+        let elsewhere = || {
+            tried.find_map(|class| match &class.0 {
+                ClassMeaning::NotSolved { reason } => Some((*reason).to_owned()),
+                _ => None,
+            })
+        };
+        let reason = in_middle.or_else(elsewhere).unwrap_or_default();
         Fault::general(FaultKind::NoAnswerOnMap { reason }).into()
     }
 
@@ -134,8 +143,10 @@ impl Source {
         before: &mut Before,
         work: Work<'_>,
     ) -> Result<Answer, Faults> {
-        let (parts, accuracy, free, stages) = if let Some(corners) = &self.corners {
-            let parts = corners.parts_at(axes, values).ok_or_else(Faults::default)?;
+        let interpolated = |corners| Some((Corners::parts_at(corners, axes, values)?, corners));
+        let (parts, accuracy, free, stages) = if let Some((parts, corners)) =
+            self.corners.as_ref().and_then(interpolated)
+        {
             (parts, corners.accuracy, corners.free.clone(), None)
         } else {
             let [x, y] = [0, 1].map(|index| (&axes[index].varied, values[index]));

@@ -213,7 +213,7 @@ fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapRepo
     let Some(raster) = raster else { return Ok(MapReport::default()) };
     let is_answer = |class: &ClassKey| !matches!(class.0, ClassMeaning::NotSolved { .. });
     if !raster.classes.iter().any(is_answer) {
-        return Err(evaluator.no_answer(work));
+        return Err(evaluator.no_answer(raster.classes.iter(), work));
     }
     finite(report::report((model, options), &axes, &evaluator, &raster, work))
 }

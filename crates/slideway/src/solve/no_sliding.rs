@@ -4,40 +4,44 @@ use crate::configuration::{Configuration, Follower, PROBE};
 use crate::fault::NoSliding;
 use crate::mechanism::Mechanism;
 
-/// Whether something slides or turns in a state.
-pub(super) type Moves<'m> = &'m dyn Fn(&Mechanism, &Configuration) -> bool;
+/// Which of the things that are asked about slide or turn in a state.
+pub(super) type Moves<'m> = &'m dyn Fn(&Mechanism, &Configuration) -> Vec<bool>;
 
-/// Why what `moves` tells of does not move in a configuration: the mechanism rests, or it moves without it, as it
-/// always does or in this position alone.
+/// Why each of the things that `moves` tells of does not move in a configuration: the mechanism rests, or it moves without
+/// it, as it always does or in this position alone.
 ///
-/// Each coordinate is given a rate of its own, here and a probe's length on either side of here.
-pub(super) fn why(mechanism: &Mechanism, configuration: &Configuration, moves: Moves<'_>) -> NoSliding {
+/// Each coordinate is given a rate of its own, here and a probe's length on either side of here. Every such state is
+/// computed once, whatever the number of things.
+pub(super) fn why(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (count, moves): (usize, Moves<'_>),
+) -> Vec<NoSliding> {
     let names = |indices: &[usize]| -> Vec<String> {
         indices.iter().map(|&index| mechanism.coordinates[index].name.to_string()).collect()
     };
     let all: Vec<usize> = (0..mechanism.coordinates.len()).collect();
     if configuration.rates.iter().all(|rate| *rate == 0.0) {
-        return NoSliding::AtRest(names(&all));
+        return vec![NoSliding::AtRest(names(&all)); count];
     }
     let mut probe = Probe { mechanism: mechanism.clone(), follower: Follower::default(), moves };
-    let slides_with: Vec<usize> =
-        all.iter().copied().filter(|&coordinate| probe.slides(coordinate)).collect();
-    if slides_with.iter().any(|&coordinate| configuration.rates[coordinate] != 0.0) {
-        return NoSliding::Here;
+    let mut slides_with = vec![Vec::new(); count];
+    for &coordinate in &all {
+        let moving = slides_with.iter_mut().zip(probe.moving(coordinate));
+        moving.filter(|(_, moves)| *moves).for_each(|(with, _)| with.push(coordinate));
     }
-    if !slides_with.is_empty() {
-        return NoSliding::WithoutRate(names(&slides_with));
+    let reason = |with: &Vec<usize>| match &with[..] {
+        [] => NoSliding::Never,
+        with if with.iter().any(|&coordinate| configuration.rates[coordinate] != 0.0) => NoSliding::Here,
+        with => NoSliding::WithoutRate(names(with)),
+    };
+    let mut reasons: Vec<NoSliding> = slides_with.iter().map(reason).collect();
+    for &moved in &all {
+        for step in [PROBE, -PROBE] {
+            probe.nearby(moved, step, &mut reasons);
+        }
     }
-    let slides_nearby = all.iter().any(|&moved| {
-        let length = if mechanism.coordinates[moved].kind.is_angle() { 1.0 } else { mechanism.size };
-        [PROBE, -PROBE].into_iter().any(|step| {
-            probe.mechanism.coordinates[moved].value = mechanism.coordinates[moved].value + step * length;
-            let slides = all.iter().any(|&coordinate| probe.slides(coordinate));
-            probe.mechanism.coordinates[moved].value = mechanism.coordinates[moved].value;
-            slides
-        })
-    });
-    if slides_nearby { NoSliding::Here } else { NoSliding::Never }
+    reasons
 }
 
 /// A mechanism that is moved to see what slides.
@@ -48,12 +52,30 @@ struct Probe<'m> {
 }
 
 impl Probe<'_> {
-    /// Whether it slides or turns if this coordinate alone has a rate; not where there is no such state.
-    fn slides(&mut self, coordinate: usize) -> bool {
+    /// What slides or turns if this coordinate alone has a rate; nothing where there is no such state.
+    fn moving(&mut self, coordinate: usize) -> Vec<bool> {
         for (index, other) in self.mechanism.coordinates.iter_mut().enumerate() {
             other.rate = if index == coordinate { 1.0 } else { 0.0 };
         }
         let state = self.follower.configuration(&self.mechanism);
-        state.is_ok_and(|state| (self.moves)(&self.mechanism, &state))
+        state.map_or_else(|_| Vec::new(), |state| (self.moves)(&self.mechanism, &state))
+    }
+
+    /// Notes what seems never to move, but does where this coordinate is a little further.
+    fn nearby(&mut self, moved: usize, step: f64, reasons: &mut [NoSliding]) {
+        let here = self.mechanism.coordinates[moved].value;
+        let length =
+            if self.mechanism.coordinates[moved].kind.is_angle() { 1.0 } else { self.mechanism.size };
+        self.mechanism.coordinates[moved].value = here + step * length;
+        for coordinate in 0..self.mechanism.coordinates.len() {
+            if !reasons.contains(&NoSliding::Never) {
+                break;
+            }
+            let moving = reasons.iter_mut().zip(self.moving(coordinate));
+            moving
+                .filter(|(reason, moves)| *moves && **reason == NoSliding::Never)
+                .for_each(|(reason, _)| *reason = NoSliding::Here);
+        }
+        self.mechanism.coordinates[moved].value = here;
     }
 }

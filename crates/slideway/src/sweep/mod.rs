@@ -70,7 +70,7 @@ pub use rows::{Breakpoint, PointStatus, Refusal, RowHead, RowKind, Rows};
 pub use shard::{Shard, ShardFault};
 pub use summary::{Probability, Tally};
 
-use crate::fault::{AxisProblem, Faults};
+use crate::fault::{AxisProblem, Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::Callback;
@@ -131,8 +131,7 @@ impl Sweep {
     /// # Errors
     /// Every axis that makes no sense; values of the model that are not allowed.
     pub fn new(model: &Model, options: &SweepOptions) -> Result<Self, Faults> {
-        // Nothing breaks, so that there is one.
-        Self::new_with(model, options, &mut |_| ControlFlow::Continue(()))?.ok_or_else(Faults::default)
+        Self::new_with(model, options, &mut |_| ControlFlow::Continue(()))?.ok_or_else(ended)
     }
 
     /// [`Sweep::new`] with a callback that is called now and then; nothing if it breaks.
@@ -156,8 +155,7 @@ impl Sweep {
         options: &SweepOptions,
         breakpoints: Breakpoints,
     ) -> Result<Self, Faults> {
-        // Nothing breaks, so that there is one.
-        Self::prepare(model, options, |_| Some(breakpoints))?.ok_or_else(Faults::default)
+        Self::prepare(model, options, |_| Some(breakpoints))?.ok_or_else(ended)
     }
 
     /// A sweep; nothing if `find` finds no answer to what ends of modes are on an axis.
@@ -421,6 +419,11 @@ impl Sweep {
             rest /= axis.values.len();
         }
     }
+}
+
+/// The fault of a sweep whose preparation was ended.
+fn ended() -> Faults {
+    Fault::general(FaultKind::WorkEnded).into()
 }
 
 /// The axes, with every fault of each.

@@ -6,6 +6,7 @@ use slideway::fault::{FaultKind, NoSliding};
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::{OpenRange, SolveReport, Status};
+use slideway::size::{Against, SizeOptions, size};
 use slideway::solve::solve;
 
 /// From an independent review: two bars whose ends A run straight up, and a platform on both. The upper slot keeps its
@@ -172,6 +173,23 @@ fn limits_have_infinitely_many_solutions_there() {
         assert!(count.continuum && count.solutions == 0 && count.from.abs() < 1e-9, "{count:?}");
         assert!(report.conclusion[0].contains("infinitely many solutions"), "{:?}", report.conclusion);
     }
+}
+
+/// `push <= 20 N + 3 mu_static N < hold <= 50 N + 10 mu_static N`, and the floor carries at most `100 N + 10 mu_static N`.
+#[test]
+fn sizes_keep_the_greatest_force_of_a_range() {
+    let most = |against: Against, limit: f64| {
+        let vary = Vary::between("mu_static", 0.2, 1.0);
+        let report = size(&model(SLED), &SizeOptions::new(vary, limit).against(against)).unwrap();
+        let [met] = report.met.as_slice() else { panic!("{:?}", report.met) };
+        assert_eq!(met.from, 0.2);
+        assert!(report.without_position.is_empty());
+        met.to
+    };
+    close(most(Against::Effort { drive: None }, 56.0), 0.6, 1.0, 1e-9);
+    close(most(Against::Effort { drive: Some("push".into()) }, 21.5), 0.5, 1.0, 1e-9);
+    close(most(Against::NormalForce { contact: None }, 104.0), 0.4, 1.0, 1e-9);
+    close(most(Against::NormalForce { contact: Some("lift".into()) }, 12.0), 1.0, 1.0, 1e-9);
 }
 
 /// The ends of a range are the solutions in which the slot slides a little, either way.

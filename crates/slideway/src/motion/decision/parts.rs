@@ -194,10 +194,9 @@ impl PhaseSearch<'_> {
         let resting: Vec<usize> = self.members(group).filter(rests).collect();
         let most = u32::try_from(resting.len().min(MOST_RESTING)).unwrap_or(0);
         (0..=most).flat_map(move |count| subsets(most, count)).flat_map(move |slips| {
-            let slipping: Vec<usize> = (0..resting.len())
-                .filter(|place| slips >> place & 1 == 1)
-                .map(|place| resting[place])
-                .collect();
+            let tried = resting.iter().take(MOST_RESTING).enumerate();
+            let slipping: Vec<usize> =
+                tried.filter(|(place, _)| slips >> place & 1 == 1).map(|(_, number)| *number).collect();
             let senses = (0..1_u64 << slipping.len()).map(move |senses| {
                 let mut phase = self.any_phase();
                 for (place, &number) in slipping.iter().enumerate() {

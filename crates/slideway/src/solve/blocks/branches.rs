@@ -5,7 +5,7 @@ use super::super::mode_problem::overflow;
 use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::found::hinge_states;
-use super::spin::{does_not_turn, sense};
+use super::spin::{does_not_turn, senses};
 use crate::fault::Faults;
 use crate::kinetics::ConstraintRow;
 use crate::modes::ContactState;
@@ -22,10 +22,11 @@ pub(crate) fn turning_hinges(stages: &Stages, circles: &[usize]) -> Result<Vec<T
     let Stages { mechanism, configuration, influence, .. } = stages;
     let mut faults = Faults::default();
     let mut turning = Vec::new();
-    for &circle in circles {
-        let joint = mechanism.friction_circles[circle].joint;
+    let joints = circles.iter().map(|&circle| mechanism.friction_circles[circle].joint).collect();
+    for (&circle, (joint, sense)) in circles.iter().zip(senses((mechanism, configuration), influence, joints))
+    {
         let is_smooth = mechanism.friction_circles[circle].radius == 0.0;
-        match sense(mechanism, configuration, influence, joint) {
+        match sense {
             Ok(sense) => turning.push(TurningHinge { circle, joint, sense }),
             Err(_) if is_smooth => turning.push(TurningHinge { circle, joint, sense: 1.0 }),
             Err(why) => faults.push(does_not_turn(mechanism, joint, why)),

@@ -8,6 +8,7 @@ use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
 use crate::problem::TurningHinge;
+use nalgebra::DMatrix;
 
 /// The hinges with friction.
 pub(super) struct Spins {
@@ -32,8 +33,11 @@ pub(super) fn spins(
 ) -> Result<Spins, Faults> {
     let mut faults = Faults::default();
     let mut spins = Spins { turning: Vec::new(), standing: Vec::new() };
-    for (circle, joint) in mechanism.rough_hinges() {
-        match sense(mechanism, configuration, influence, joint) {
+    let (circles, joints): (Vec<usize>, Vec<JointId>) = mechanism.rough_hinges().unzip();
+    for (circle, (joint, sense)) in
+        circles.into_iter().zip(senses((mechanism, configuration), influence, joints))
+    {
+        match sense {
             Ok(sense) => spins.turning.push(TurningHinge { circle, joint, sense }),
             Err(NoSliding::Never) => spins.standing.push(TurningHinge { circle, joint, sense: 0.0 }),
             Err(why) => faults.push(does_not_turn(mechanism, joint, why)),
@@ -60,12 +64,14 @@ pub(crate) fn never_turning(mechanism: &Mechanism, configuration: &Configuration
     let mut faults = Faults::default();
     let mut moving = configuration.clone();
     moving.rates.fill(1.0);
-    for circle in &mechanism.friction_circles {
-        let joint = circle.joint;
-        let turning = |mechanism: &Mechanism, state: &Configuration| turns(mechanism, state, joint) != 0.0;
-        let stands = !turning(mechanism, configuration) && !is_free(mechanism, configuration, joint);
-        if stands && why(mechanism, &moving, &turning) == NoSliding::Never {
-            faults.push(does_not_turn(mechanism, joint, NoSliding::Never));
+    let joints = mechanism.friction_circles.iter().map(|circle| circle.joint);
+    let mut still: Vec<JointId> =
+        joints.filter(|joint| turns(mechanism, configuration, *joint) == 0.0).collect();
+    let free = FreeTurns::of(mechanism, configuration, &still);
+    still.retain(|joint| !free.turn(mechanism, *joint));
+    for (&joint, why) in still.iter().zip(why_still(mechanism, &moving, &still)) {
+        if why == NoSliding::Never {
+            faults.push(does_not_turn(mechanism, joint, why));
         }
     }
     faults.or(())
@@ -76,29 +82,46 @@ pub(super) fn does_not_turn(mechanism: &Mechanism, joint: JointId, why: NoSlidin
     Fault::new(FaultKind::HingeDoesNotTurn { hinge: name.to_string(), why }, place.clone())
 }
 
-pub(super) fn sense(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
+/// The sense in which each of these hinges turns, or why it does not.
+pub(super) fn senses(
+    (mechanism, configuration): (&Mechanism, &Configuration),
     influence: &Influence,
-    joint: JointId,
-) -> Result<f64, NoSliding> {
-    let now = turns(mechanism, configuration, joint);
-    if now != 0.0 {
-        return Ok(now);
-    }
-    let why = why(mechanism, configuration, &|mechanism, state| turns(mechanism, state, joint) != 0.0);
-    if why != NoSliding::Here || is_free(mechanism, configuration, joint) {
-        return Err(why);
-    }
+    joints: Vec<JointId>,
+) -> Vec<(JointId, Result<f64, NoSliding>)> {
+    let now: Vec<f64> = joints.iter().map(|joint| turns(mechanism, configuration, *joint)).collect();
+    let still: Vec<JointId> =
+        joints.iter().zip(&now).filter(|(_, now)| **now == 0.0).map(|(joint, _)| *joint).collect();
+    let free = FreeTurns::of(mechanism, configuration, &still);
+    let mut reasons = why_still(mechanism, configuration, &still).into_iter();
+    let sense = |(joint, now): (JointId, f64)| {
+        let begins = |why: NoSliding| match why {
+            NoSliding::Here if !free.turn(mechanism, joint) => begins(mechanism, influence, joint).ok_or(why),
+            why => Err(why),
+        };
+        (joint, if now == 0.0 { reasons.next().map_or(Ok(now), begins) } else { Ok(now) })
+    };
+    joints.into_iter().zip(now).map(sense).collect()
+}
+
+/// Why each of these hinges does not turn.
+fn why_still(mechanism: &Mechanism, configuration: &Configuration, still: &[JointId]) -> Vec<NoSliding> {
+    let turning = |mechanism: &Mechanism, state: &Configuration| {
+        still.iter().map(|joint| turns(mechanism, state, *joint) != 0.0).collect()
+    };
+    if still.is_empty() { Vec::new() } else { why(mechanism, configuration, (still.len(), &turning)) }
+}
+
+/// The sense in which a hinge that does not turn begins to, by the joint equations alone.
+fn begins(mechanism: &Mechanism, influence: &Influence, joint: JointId) -> Option<f64> {
     let accelerations = |frame: Frame| {
         frame.body().map_or(0.0, |body| influence.frictionless[influence.layout().acceleration(body) + 2])
     };
-    let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind else { return Err(why) };
+    let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind else { return None };
     let acceleration = accelerations(first.frame) - accelerations(second.frame);
     let greatest = (0..mechanism.bodies.len())
         .map(|body| accelerations(Frame::Body(BodyId(body))).abs())
         .fold(0.0, f64::max);
-    if acceleration.abs() > NO_ACCELERATION * greatest { Ok(acceleration.signum()) } else { Err(why) }
+    (acceleration.abs() > NO_ACCELERATION * greatest).then(|| acceleration.signum())
 }
 
 /// The sense in which a hinge turns: 1, -1, or 0 where it does not within rounding.
@@ -110,15 +133,25 @@ fn turns(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) -
     if spin.abs() <= AT_REST * greatest { 0.0 } else { spin.signum() }
 }
 
-/// Whether some free motion turns a hinge in this position.
-fn is_free(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) -> bool {
-    let JointKind::Hinge(ends) = &mechanism.joints[joint.index()].kind else { return false };
-    let motions = free_motions(mechanism, configuration);
-    let rotation = |frame: Frame, motion: usize| {
-        frame.body().map_or(0.0, |body| motions[(3 * body.index() + 2, motion)])
-    };
-    (0..motions.ncols()).any(|motion| {
-        let [first, second] = ends.each_ref().map(|end| rotation(end.frame, motion));
-        (first - second).abs() > NO_ACCELERATION * motions.column(motion).amax()
-    })
+/// The free motions of a position, which may turn hinges.
+struct FreeTurns(DMatrix<f64>);
+
+impl FreeTurns {
+    /// Those that matter for these hinges.
+    fn of(mechanism: &Mechanism, configuration: &Configuration, still: &[JointId]) -> Self {
+        Self(if still.is_empty() { DMatrix::zeros(0, 0) } else { free_motions(mechanism, configuration) })
+    }
+
+    /// Whether some of them turns this hinge.
+    fn turn(&self, mechanism: &Mechanism, joint: JointId) -> bool {
+        let JointKind::Hinge(ends) = &mechanism.joints[joint.index()].kind else { return false };
+        let Self(motions) = self;
+        let rotation = |frame: Frame, motion: usize| {
+            frame.body().map_or(0.0, |body| motions[(3 * body.index() + 2, motion)])
+        };
+        (0..motions.ncols()).any(|motion| {
+            let [first, second] = ends.each_ref().map(|end| rotation(end.frame, motion));
+            (first - second).abs() > NO_ACCELERATION * motions.column(motion).amax()
+        })
+    }
 }
