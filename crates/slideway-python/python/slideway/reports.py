@@ -1406,6 +1406,9 @@ class DriveDirection(Record):
     computed."""
     never_jams: bool
     """Whether there is a solution however great the friction; false also where that was not computed."""
+    another_count: float | None = None
+    """Where there is a solution however great the friction: up to this factor there is the same number of them;
+    absent if that never changes."""
     moves_below: Unlocking | None = None
     """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
     and where none comes."""
@@ -1611,6 +1614,8 @@ class EventReport(Record):
     """What happened, in words."""
     mode: str | None
     """The mode that follows; absent if the motion ends."""
+    attainable: Verdict | None = None
+    """Whether a real mechanism can follow that mode; absent if the motion ends, and where it was not computed."""
     branches: tuple[BranchReport, ...]
     """All possible modes, in order of preference, if there were several."""
     branches_left_out: bool = False

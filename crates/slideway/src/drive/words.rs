@@ -4,7 +4,7 @@ use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
     EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
-use crate::report::effort::{self, times_friction};
+use crate::report::effort::{self, times, times_friction};
 use crate::report::{Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
@@ -211,9 +211,18 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     }
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
+        if let Some(factor) = direction.unique_at_least {
+            return Some(format!("it does not jam up to at least {}.", times(factor)));
+        }
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
-        return never.then(|| "it does not jam at any friction while it moves.".to_owned());
+        return never.then(|| match direction.another_count {
+            Some(changes) => format!(
+                "it does not jam at any friction while it moves, but from {} other states are possible.",
+                times_friction(changes, direction.mu.map(|mu| changes * mu))
+            ),
+            None => "it does not jam at any friction while it moves.".to_owned(),
+        });
     };
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {

@@ -168,11 +168,12 @@ impl Page<'_, LimitsReport> {
         let unit = &self.report.vary.shown_in;
         let [from, to] = ["from", "to"].map(|end| unit.title(end));
         let verbose = self.is_verbose();
-        let has_orientation = modes.iter().any(|mode| mode.orientation.is_some());
+        // The sign of their determinant tells solutions apart where some are negative.
+        let has_orientation = modes.iter().any(|mode| mode.orientation == Some(-1));
         let mut titles = vec![from.as_str(), &to, "contact mode", "ends with"];
         if verbose {
             titles = vec!["signs", &from, &to, "begins with", "ends with"];
-            titles.extend(has_orientation.then_some("oriented"));
+            titles.extend(has_orientation.then_some("orientation"));
         }
         let row = |mode: &ModeLimits| {
             let mut row = mode_row(mode, unit, verbose);

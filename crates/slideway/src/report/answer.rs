@@ -1,6 +1,6 @@
 //! The plain answer of `solve`, as one would say it to a colleague.
 
-use super::effort::{self, times_friction};
+use super::effort::{self, times, times_friction};
 use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
@@ -56,7 +56,11 @@ impl SolveReport {
         let mut sentences = Vec::new();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
-            sentences.push(format!("The number of solutions changes from {}.", at(changes)));
+            sentences.push(if self.status == Status::One {
+                format!("From {} it has several ways to go on.", at(changes))
+            } else {
+                format!("The number of solutions changes from {}.", at(changes))
+            });
         }
         let any_load = self.any_load_in_words(margins);
         match jams {
@@ -238,7 +242,7 @@ impl SolveReport {
     /// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
     fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
         let factor = margins.uniqueness?;
-        let times = format!("{} times this friction", brief(factor));
+        let times = times(factor);
         let [no, other] = if self.sharing.is_some() {
             ["no load, play, misalignment or stiffness", "Other loads, play, misalignment or stiffness"]
         } else {
@@ -252,9 +256,8 @@ impl SolveReport {
     }
 
     fn without_margins(&self) -> Vec<String> {
-        let least = self
-            .unique_at_least
-            .map(|factor| safe_up_to("no load", &format!("at least {} times this friction", brief(factor))));
+        let least =
+            self.unique_at_least.map(|factor| safe_up_to("no load", &format!("at least {}", times(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()

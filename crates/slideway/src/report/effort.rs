@@ -14,8 +14,16 @@ pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str) -> String
 /// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222
 /// times this friction)".
 pub(crate) fn times_friction(factor: f64, mu: Option<f64>) -> String {
-    let times = format!("{} times this friction", brief(factor));
+    let times = times(factor);
     mu.map_or(times.clone(), |mu| format!("mu = {} ({times})", brief(mu)))
+}
+
+/// A factor on all friction: "2.222 times this friction".
+pub(crate) fn times(factor: f64) -> String {
+    match factor {
+        1e6 => "a million times this friction".to_owned(),
+        factor => format!("{} times this friction", brief(factor)),
+    }
 }
 
 /// The kind of an effort in this SI unit: "force", "torque"; none of other quantities.
