@@ -4,7 +4,7 @@ use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
     EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
-use crate::report::effort::{self, times, times_friction};
+use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
 use crate::report::{Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
@@ -176,15 +176,6 @@ fn needs_several(report: &DriveReport, several: &[DriveSolution]) -> String {
     format!("{count} states are possible: {} needs {}.", drive.name, efforts.join(", or "))
 }
 
-/// A remark on the only state if a mechanism does not settle on it.
-fn unsettled(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Unattainable => " This state is unstable: a real mechanism leaves it.",
-        Verdict::Flutter => " It flutters unless its contacts are damped.",
-        _ => "",
-    }
-}
-
 /// "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is
 /// undetermined."
 fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &EffortRange) -> String {
@@ -207,7 +198,7 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
 fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Option<String> {
     if let Some(below) = &direction.moves_below {
         let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
-        return Some(format!("{what} below {}.", times_friction(below.factor, below.mu)));
+        return Some(format!("{what} below {}.", least_friction(below.factor, below.mu)));
     }
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {

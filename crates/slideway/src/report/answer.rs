@@ -1,6 +1,6 @@
 //! The plain answer of `solve`, as one would say it to a colleague.
 
-use super::effort::{self, times, times_friction};
+use super::effort::{self, least_friction, times, times_friction};
 use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
@@ -22,7 +22,7 @@ impl SolveReport {
                 Some(tipping) => format!("No answer: {}.", tipping.in_words()),
                 None => format!("It jams: {}.", self.nothing_moves_it()),
             },
-            Status::One => self.moves_in_words(),
+            Status::One => format!("{}{}", self.moves_in_words(), self.unsettled()),
             Status::Several => self.ways_in_words(),
             Status::Continuum => self.open_in_words(),
             Status::PreloadGap => self.gap_in_words(),
@@ -46,7 +46,7 @@ impl SolveReport {
         }
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
-            let below = margins.moves_below.map(|below| times_friction(below.factor, below.mu));
+            let below = margins.moves_below.map(|below| least_friction(below.factor, below.mu));
             return below
                 .map(|below| format!("It {} below {below}.", self.what_ends()))
                 .into_iter()
@@ -142,6 +142,14 @@ impl SolveReport {
             [] => "It has one solution.".to_owned(),
             [change] => format!("It {change}."),
             changes => format!("It moves: {}.", changes.join(", ")),
+        }
+    }
+
+    /// A remark on the only solution if a mechanism does not settle on it.
+    fn unsettled(&self) -> &'static str {
+        match self.solutions.as_slice() {
+            [only] => effort::unsettled(only.attainability.verdict),
+            _ => "",
         }
     }
 

@@ -241,9 +241,11 @@ impl Page<'_, SimulateReport> {
         self.line("");
         let (unit, part) = (report.model.units.of("J"), report.energy.relative_error);
         let error = unit.with(&format!("{:.1e}", unit.number_of(report.energy.error)));
+        let part = part.filter(|_| self.is_verbose() && report.energy.error != 0.0);
+        let part = part.map_or_else(String::new, |part| format!(", {part:.1e} of its greatest part"));
         let closes = match report.energy.error {
             0.0 => "the energy balance closes".to_owned(),
-            _ => format!("the energy balance closes to {error}"),
+            _ => format!("the energy balance closes to {error}{part}"),
         };
         self.line(&format!("Computed step by step, not proven: {closes}."));
         let statistics = &report.statistics;
@@ -254,9 +256,6 @@ impl Page<'_, SimulateReport> {
         }
         if !self.is_verbose() {
             return;
-        }
-        if let Some(part) = part.filter(|_| report.energy.error != 0.0) {
-            self.line(&format!("The error of the energy is {part:.1e} of its greatest part."));
         }
         if let Some(sampled) = &statistics.sampled {
             self.line(&format!(
