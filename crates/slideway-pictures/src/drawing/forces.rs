@@ -9,7 +9,6 @@ use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::mechanism::Mechanism;
 use slideway::model::SliderKind;
-use slideway::motion;
 
 /// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
 const AT_REST: f64 = 1e-9;
@@ -113,7 +112,7 @@ impl Painter<'_> {
         is_shown.then_some(velocity)
     }
 
-    /// The velocities of all joints; each with the name of what moves, unless there is only one and no names are
+    /// The velocities of all joints; each with the name of its joint, unless there is only one and no names are
     /// wanted.
     pub(super) fn velocities(&mut self) {
         let joints = (0..self.mechanism.joints.len()).map(JointId);
@@ -126,8 +125,8 @@ impl Painter<'_> {
             let (middle, side) = self.free_place(&slide, half);
             self.scene.add(Class::Velocity, Shape::Arrow { from: middle - half, to: middle + half });
             let value = self.shown(velocity.abs(), "m/s");
-            let name = motion::moving(self.mechanism, joint);
-            let text = if has_names { format!("{name} {value}") } else { value };
+            let name = &self.mechanism.joints[joint.index()].name;
+            let text = if has_names { format!("{name}: {value}") } else { value };
             let ends = [middle - half, middle + half];
             self.value_along(Class::Velocity, text, ends, slide.guide.across * side);
         }

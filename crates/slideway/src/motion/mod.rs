@@ -50,7 +50,7 @@ pub use following::{simulate, simulate_with};
 pub use moving::cause::{Cause, CauseKind};
 pub use moving::equations::Drift;
 pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
-pub use record::event::{Event, modes_in_words, moving, phase_in_words};
+pub use record::event::{Event, modes_in_words, phase_in_words};
 pub use record::history::{
     ContactSample, End, Energy, HingeSample, History, PhaseInterval, Reader, Sample, Statistics,
 };

@@ -314,7 +314,7 @@ impl Words<'_> {
 
 /// The name of the body that slides in a joint, where this is the only joint in which it does, and of the joint elsewhere: of
 /// hinges, of pins in slots, where the ground is the block.
-pub fn moving(mechanism: &Mechanism, joint: JointId) -> &str {
+pub(in crate::motion) fn moving(mechanism: &Mechanism, joint: JointId) -> &str {
     let block = |joint: JointId| {
         let slider = mechanism.slider(joint).filter(|slider| slider.kind != SliderKind::Pin)?;
         slider.block.body()
