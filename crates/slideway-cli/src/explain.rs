@@ -2,7 +2,7 @@
 //! are.
 
 use crate::arguments::Arguments;
-use crate::diagnostics::{Note, listing};
+use crate::diagnostics::{Note, listing, note};
 use crate::outcome::Outcome;
 use crate::output::{Look, Output, complain};
 use crate::refuse;
@@ -72,9 +72,49 @@ fn with_all_names(error: &clap::Error) -> Option<String> {
             let all = options.iter().map(|one| row(&long(one), one.get_help())).collect();
             (format!("the template {} has no `{name}`", path[1]), hint, all)
         }
+        ErrorKind::UnknownArgument if !path.is_empty() => {
+            let name = quoted(ContextKind::InvalidArg)?;
+            return name.starts_with('-').then(|| unknown_option(&command, &path.join(" "), &name));
+        }
+        ErrorKind::InvalidValue => {
+            let (value, option) = (quoted(ContextKind::InvalidValue)?, quoted(ContextKind::InvalidArg)?);
+            let Some(ContextValue::Strings(possible)) = error.get(ContextKind::ValidValue) else {
+                return None;
+            };
+            let hint = (!possible.is_empty()).then(|| format!("write {}", one_of(possible)))?;
+            let message = format!("`{value}` is no value of `{option}`");
+            return Some(note(&Note { message, hint: Some(hint) }));
+        }
         _ => return None,
     };
     Some(listing(&Note { message, hint: Some(hint) }, all))
+}
+
+/// The complaint that a question has no such option, with the one that is meant: another of this name, or one that has this
+/// value.
+fn unknown_option(command: &Command, path: &str, name: &str) -> String {
+    let bare = name.trim_start_matches('-');
+    let visible = || command.get_arguments().filter(|one| !one.is_hide_set());
+    let has_value =
+        |option: &&Arg| option.get_possible_values().iter().any(|value| value.matches(bare, true));
+    let of_value = visible().find(has_value).and_then(Arg::get_long).map(|long| format!("--{long} {bare}"));
+    let of_name = || nearest(bare, visible().filter_map(Arg::get_long)).map(|long| format!("--{long}"));
+    let hint = match of_value.or_else(of_name) {
+        _ if bare.starts_with(|first: char| first.is_ascii_digit()) => {
+            format!("write a value that begins with a minus after `=`, as in `--margin={name}`")
+        }
+        Some(meant) => format!("did you mean `{meant}`?"),
+        None => format!("`slideway {path} --help` lists its options"),
+    };
+    note(&Note { message: format!("`slideway {path}` has no option `{name}`"), hint: Some(hint) })
+}
+
+/// "a, b or c"
+fn one_of(values: &[String]) -> String {
+    match values {
+        [others @ .., last] if !others.is_empty() => format!("{} or {last}", others.join(", ")),
+        values => values.concat(),
+    }
 }
 
 fn meant(near: Option<String>, help: &str) -> String {

@@ -210,9 +210,9 @@ impl Failure {
             #[cfg(not(feature = "parquet"))]
             Self::WithoutParquet => "this program was built without support for Parquet files".to_owned(),
             Self::WithoutPixels => "this program was built without support for PNG and GIF".to_owned(),
-            Self::NoSuchSolution { count: 0 } => "there is no solution".to_owned(),
-            Self::NoSuchSolution { count: 1 } => "there is only one solution".to_owned(),
-            Self::NoSuchSolution { count } => format!("there are only {count} solutions"),
+            Self::NoSuchSolution { count: 0 } => "there is no solution in this state".to_owned(),
+            Self::NoSuchSolution { count: 1 } => "there is only one solution in this state".to_owned(),
+            Self::NoSuchSolution { count } => format!("there are only {count} solutions in this state"),
             Self::BinaryOnTerminal => "an .npz archive cannot be written to a terminal".to_owned(),
             Self::SeriesFormat { path, .. } => {
                 format!("`{}` is not the name of a time series", path.display())

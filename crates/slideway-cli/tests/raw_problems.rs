@@ -415,7 +415,7 @@ fn proofs_are_accepted_by_the_checker() {
             [command_name, problem.to_str().unwrap(), "--force", "--proof", proof.to_str().unwrap()];
         let output = command(&arguments).output().unwrap();
         let note = String::from_utf8(output.stderr).unwrap();
-        assert!(note.contains("proof of"), "{name}: {note}");
+        assert!(note.contains("the proof has "), "{name}: {note}");
         // The note names the problem that the checker reads.
         let own = folder_of_proofs.join(format!("{name}.txt.json"));
         let read = if note.contains(".txt.json") { &own } else { &problem };

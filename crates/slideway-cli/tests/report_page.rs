@@ -54,7 +54,7 @@ fn pages_have_all_parts_and_need_nothing_else() {
         "<h3>Margins of friction</h3>",
         "The number of solutions changes from 3.901 times this friction.",
         "<h3>At rest</h3>",
-        "Not attainable: disturbed to one side, it jams; to the other, it goes over to solution 2.",
+        "Not attainable: disturbed to one side, it locks up, its forces growing without limit; to the other, it goes over to solution 2.",
         "<svg ",
         "<table class=\"limits\">",
         "<img class=\"on-light\" src=\"data:image/svg+xml,",

@@ -481,7 +481,7 @@ fn a_plot_shows_branches_and_locking_values() {
     // Three contacts on each of two branches.
     assert_eq!(curves.len(), 6);
     assert_eq!(curves.iter().filter(|curve| curve.contains("stroke-dasharray")).count(), 3);
-    assert!(svg.contains("branch 2:") && svg.contains("threshold, not attainable"));
+    assert!(svg.contains("branch 2:") && svg.contains("(unstable)"));
     assert!(of_class(&svg, "zone").is_empty());
 }
 

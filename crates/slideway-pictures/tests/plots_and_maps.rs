@@ -85,7 +85,7 @@ fn the_paper_s_figures() {
     }
     for words in [
         "upper on the lower side of the slot",
-        "threshold, not attainable",
+        "(unstable)",
         "excluded: no solution",
         "normal force in N",
         // To the right another solution stays, to the left none is left.

@@ -336,7 +336,7 @@ fn efforts_and_efficiency_over_friction() {
     // What comes from infinity beyond 2/3 is a threshold: dashed, cut, and told of.
     let threshold =
         figure.branches.iter().find(|branch| branch.stroke == Stroke::Dashed).expect("a threshold");
-    assert!(threshold.name.ends_with("(threshold, not attainable)"), "{}", threshold.name);
+    assert!(threshold.name.ends_with("(unstable)"), "{}", threshold.name);
     let settled = figure.branches.iter().filter(|branch| branch.stroke == Stroke::Solid).count();
     assert_eq!(settled, 2);
     // The directions are told apart by colour, not by markers alone.

@@ -46,7 +46,7 @@ def test_limits_are_drawn_on_one_axes_with_their_labels(figure_4):
     assert ax.get_xlim() == (0.0, 0.8)
     texts = legend_texts(ax)
     assert {"upper", "lower.front", "lower.rear"} <= set(texts)
-    assert any("threshold, not attainable" in text for text in texts)
+    assert any("(unstable)" in text for text in texts)
     # Klepp (2002): mu_1* = 2 cot(80 deg) + 0.1.
     unbounded = 2.0 / np.tan(np.radians(80.0)) + 0.1
     assert any(text.get_text() == f"{unbounded:.6g}: grows without bound" for text in ax.texts)

@@ -143,6 +143,34 @@ impl Faults {
         self
     }
 
+    /// Leaves out what others bring with them: formulas without a value where some quantity has the wrong dimension, and
+    /// what an entry lacks where the key for it is misspelt.
+    #[must_use]
+    pub(crate) fn without_consequences(mut self) -> Self {
+        let is_wrong = |fault: &Fault| matches!(fault.kind, FaultKind::WrongDimension { .. });
+        let has_wrong_dimension = self.list.iter().any(is_wrong);
+        let misspelt = |fault: &Fault| match &fault.kind {
+            FaultKind::UnknownKey { table, nearest: Some(meant), .. } => Some((table.clone(), meant.clone())),
+            _ => None,
+        };
+        let misspelt: Vec<(String, String)> = self.list.iter().filter_map(misspelt).collect();
+        let is_meant = |owner: &str, one_of: &[&str]| {
+            let name = owner.rsplit(' ').next();
+            misspelt.iter().any(|(table, meant)| {
+                // The shape of a bar has its centre of mass.
+                let gives =
+                    one_of.contains(&meant.as_str()) || meant == "shape" && one_of == ["centre_of_mass"];
+                gives && table.rsplit('.').next() == name
+            })
+        };
+        self.list.retain(|fault| match &fault.kind {
+            FaultKind::WithoutValue { .. } => !has_wrong_dimension,
+            FaultKind::NoneOf { owner, one_of } => !is_meant(owner, one_of),
+            _ => true,
+        });
+        self
+    }
+
     /// Moves the faults that lie in a setting or have no place to an argument: `span` gives the place there
     /// for the one in the setting.
     #[must_use]
@@ -465,7 +493,7 @@ pub enum FaultKind {
     // Standstill.
     #[error("the load {load} is zero at rest, so no factor changes it")]
     NoLoadAtRest { load: String },
-    #[error("self-locking is asked of one load, and the model has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    #[error("self-locking under which load? The model has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     HeldLoadNeeded { known: Vec<String> },
     #[error(
         "the efficiency has no value: the motion takes no power without friction, or drives brake what they would push"
@@ -473,7 +501,7 @@ pub enum FaultKind {
     NoEfficiency,
     #[error("nowhere on the map is there an answer: {reason}")]
     NoAnswerOnMap { reason: String },
-    #[error("`{parameter}` is not a parameter of static friction alone")]
+    #[error("`{parameter}` needs a range: {parameter}=FROM..TO")]
     NotOnlyFriction { parameter: String },
     #[error("the joints and contacts have {} states; at most {limit} are tried", counted(*states))]
     TooManyStates { states: u64, limit: u64 },
@@ -785,7 +813,7 @@ impl FaultKind {
             ),
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
-                "give it a range, NAME=FROM..TO; only a parameter on which nothing but friction depends, linearly, needs none",
+                "write both ends with units, for instance `x=50mm..200mm`; only a parameter on which nothing but friction depends, linearly, needs none",
             ),
             Self::RangeNeeded { .. } => {
                 Some("write both ends with units, for instance `x=-10mm..10mm` or `phi=20deg..70deg`")

@@ -12,6 +12,7 @@ mod exact_arithmetic;
 mod expression;
 mod expression_properties;
 mod extremes;
+mod first_lines;
 mod import;
 mod limits_curves;
 mod map;

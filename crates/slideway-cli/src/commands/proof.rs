@@ -55,10 +55,10 @@ impl ProofFiles {
         let problem = self.problem.as_ref().map_or(given, |(_, path)| path.as_path());
         let cells: Vec<String> = proof.cells.iter().map(ToString::to_string).collect();
         let note = format!(
-            "note: proof of {} in {} {}; to check it: python3 reference/check_proof.py {} {}",
-            if proof.cells == [1] { "1 cell".to_owned() } else { format!("{} cells", cells.join(" x ")) },
+            "note: the proof has {} {} and finds {} with a solution; in the folder of the source code this checks it: python3 reference/check_proof.py {} {}",
             proof.nodes,
             if proof.nodes == 1 { "node" } else { "nodes" },
+            if proof.cells == [1] { "1 cell".to_owned() } else { format!("{} cells", cells.join(" x ")) },
             quoted(problem.as_os_str()),
             quoted(self.path.as_os_str())
         );

@@ -9,7 +9,7 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;
-use slideway::fault::FaultKind;
+use slideway::fault::{FaultKind, Faults};
 use slideway::solve::{SolveOptions, exact_mode_problem, solve_with};
 
 /// Finds and writes all solutions of a model.
@@ -22,6 +22,8 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
     let options = SolveOptions::default().search(search.options()).most(search.max_solutions);
     let proof = arguments.proof.as_deref();
     let proof = proof.map(|path| ProofFiles::new(path, false, &mut files)).transpose()?;
+    let problem = proof.as_ref().map(|_| exact_mode_problem(&model)).transpose();
+    let problem = problem.map_err(|faults| without_proof(faults, &input))?;
     let mut watch = Watch::new(arguments.search.time.time_limit);
     let report = solve_with(&model, &options, &mut |progress| watch.look(progress));
     let report = report.map_err(|faults| match watch.halt() {
@@ -36,9 +38,20 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
         Format::Json => report.json(),
         Format::Csv => report.csv(),
     })?;
-    if let Some(proof) = proof {
-        let problem = exact_mode_problem(&model).map_err(|faults| input.refused(faults))?;
+    if let Some((proof, problem)) = proof.zip(problem) {
         proof.write(&problem, &arguments.model.file, &search.options(), &mut watch)?;
     }
     Ok(outcome(watch.finish(), report.status.into()))
+}
+
+/// The failure of a problem of which no proof is written.
+fn without_proof(faults: Faults, input: &Input) -> Failure {
+    let hinges = faults.sorted().iter().find_map(|fault| match &fault.kind {
+        FaultKind::FrictionInHinges { hinges } => Some(hinges.join(", ")),
+        _ => None,
+    });
+    match hinges {
+        Some(hinges) => Failure::NoProof { reason: format!("{hinges} are hinges with friction") },
+        None => input.refused(faults),
+    }
 }

@@ -69,7 +69,9 @@ impl RawKind {
             Self::Hlcp => "A w - B z = q,  w >= 0,  z >= 0,  w_k z_k = 0",
             Self::Mlcp => "A u + C z + a = 0,  w = D u + B z + b,  w >= 0,  z >= 0,  w_k z_k = 0",
             Self::Mcp => "w = M z + q,  l <= z <= u,  w_k >= 0 where z_k < u_k,  w_k <= 0 where z_k > l_k",
-            Self::Game => "x maximises x^T A y,  y maximises x^T B y,  x >= 0,  y >= 0,  sum x = sum y = 1",
+            Self::Game => {
+                "x maximises x^T A y,  y maximises x^T B y (B = -A if not given),  x >= 0,  y >= 0,  sum x = sum y = 1"
+            }
             Self::Modes => "sum_k c_k y_k = N(0) + sum_k d_k,  y >= 0,  columns by the signs of N",
         }
     }

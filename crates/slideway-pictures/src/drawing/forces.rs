@@ -126,7 +126,7 @@ impl Painter<'_> {
             self.scene.add(Class::Velocity, Shape::Arrow { from: middle - half, to: middle + half });
             let value = self.shown(velocity.abs(), "m/s");
             let name = &self.mechanism.joints[joint.index()].name;
-            let text = if has_names { format!("{name} {value}") } else { value };
+            let text = if has_names { format!("{name}: {value}") } else { value };
             let ends = [middle - half, middle + half];
             self.value_along(Class::Velocity, text, ends, slide.guide.across * side);
         }

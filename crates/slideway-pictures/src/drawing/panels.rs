@@ -51,9 +51,9 @@ fn pins(solution: &Solution, mechanism: &Mechanism) -> Vec<[String; 4]> {
     heading.into_iter().chain(pins).collect()
 }
 
-/// "guide touching at lower right and upper left"
+/// "guide: touching at lower right and upper left"
 fn joint_modes(joints: &[JointMode]) -> impl Iterator<Item = String> {
-    joints.iter().map(|joint| format!("{} {}", joint.name, joint.mode))
+    joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode))
 }
 
 /// Which solutions are drawn.

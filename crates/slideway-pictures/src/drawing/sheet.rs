@@ -90,20 +90,20 @@ impl Sheet {
     #[must_use]
     pub fn changed_by(self, settings: &Settings) -> Self {
         let changes = changes_beside_state(settings);
-        if changes.is_empty() { self } else { self.headed(&format!("{changes}.")) }
+        if changes.is_empty() { self } else { self.headed(&with_minus_signs(&format!("{changes}."))) }
     }
 
     /// Writes below the title the faults that keep it from showing a contact mode.
     #[must_use]
     pub fn unsolved(self, faults: &Faults) -> Self {
         let reasons: Vec<String> = faults.sorted().iter().map(|fault| fault.kind.to_string()).collect();
-        self.headed(&format!("Forces at contacts are not drawn: {}.", reasons.join("; ")))
+        self.headed(&with_minus_signs(&format!("Forces at contacts are not drawn: {}.", reasons.join("; "))))
     }
 
     /// Writes below the title whether it stays at rest.
     #[must_use]
     pub fn at_rest(self, report: &HoldReport) -> Self {
-        self.headed(&format!("At rest: {}", report.answer()))
+        self.headed(&with_minus_signs(&format!("At rest: {}", report.answer())))
     }
 
     /// The same, with a further paragraph at the end of the heading.
@@ -230,6 +230,16 @@ fn view(mechanism: &Mechanism, configuration: &Configuration, room: f64) -> View
 /// The title of a mechanism, or what stands for it.
 pub fn title(mechanism: &Mechanism) -> String {
     mechanism.title.clone().unwrap_or_else(|| "A mechanism".to_owned())
+}
+
+/// The text with true minus signs before its numbers.
+fn with_minus_signs(text: &str) -> String {
+    let follows = text.chars().skip(1).map(Some).chain([None]);
+    let sign = |(letter, next): (char, Option<char>)| match (letter, next) {
+        ('-', Some(digit)) if digit.is_ascii_digit() => '\u{2212}',
+        (letter, _) => letter,
+    };
+    text.chars().zip(follows).map(sign).collect()
 }
 
 /// "q = 0 m, rate 1 m/s"

@@ -215,17 +215,17 @@ fn mode_name(mode: &ModeLimits, verdicts: impl Iterator<Item = Verdict>) -> Stri
     format!("{}:\u{a0}{}{meaning}", signs.join(" "), words.join("; "))
 }
 
-/// Returns the behaviour in a mode of a mechanism with slightly elastic guides: " (threshold, not
-/// attainable)", empty where it settles on it.
+/// Returns the behaviour in a mode of a mechanism with slightly elastic guides: " (unstable)", empty where it
+/// settles on it.
 pub(super) fn in_parentheses(verdicts: impl Iterator<Item = Verdict>) -> String {
     let mut meanings: Vec<&str> = Vec::new();
     for verdict in verdicts {
         let meaning = match verdict {
             Verdict::Attainable => continue,
-            Verdict::Unattainable => "threshold, not attainable",
-            Verdict::Flutter => "attainable only with damping",
-            Verdict::Undecided => "not decided whether attainable",
-            Verdict::NotComputed => "attainability not computed",
+            Verdict::Unattainable => "unstable",
+            Verdict::Flutter => "flutters unless damped",
+            Verdict::Undecided => "stability not decided",
+            Verdict::NotComputed => "stability not computed",
         };
         if !meanings.contains(&meaning) {
             meanings.push(meaning);

@@ -438,9 +438,9 @@ fn name(branch: &Drawn, stroke: Stroke) -> String {
     let patterns: Vec<String> = branch.patterns.iter().map(signs).collect();
     let meaning = match stroke {
         Stroke::Solid => "",
-        Stroke::Dashed => " (threshold, not attainable)",
+        Stroke::Dashed => " (unstable)",
         Stroke::Dotted => " (preload gap)",
-        Stroke::DashDotted => " (attainable only with damping, or undecided)",
+        Stroke::DashDotted => " (flutters unless damped, or stability not decided)",
     };
     format!("branch {}:\u{a0}{}{meaning}", branch.number, patterns.join(", then "))
 }

@@ -364,13 +364,13 @@ fn velocities_tell_their_joints() {
     let belt = Case::gallery("stick-slip");
     for scene in [overview(&belt).1, solved(&belt)] {
         let told = words(&scene);
-        for wanted in ["sole 0.2 m/s", "support 0.2 m/s"] {
+        for wanted in ["sole: 0.2 m/s", "support: 0.2 m/s"] {
             assert_eq!(told.iter().filter(|text| *text == wanted).count(), 1, "{told:?}");
         }
         assert!(!told.iter().any(|text| text == "sole"), "{told:?}");
     }
     let drawer = Case::gallery("thrown-drawer");
-    assert!(words(&overview(&drawer).1).contains(&"guide 0.2 m/s".to_owned()));
+    assert!(words(&overview(&drawer).1).contains(&"guide: 0.2 m/s".to_owned()));
     assert!(words(&solved(&drawer)).contains(&"0.2 m/s".to_owned()));
 }
 

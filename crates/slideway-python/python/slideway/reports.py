@@ -796,6 +796,8 @@ class BranchReport(Record):
     """Its number, counted from 1."""
     mode: str
     """The mode."""
+    words: str
+    """Where each sliding joint touches its guide in it, or that it sticks."""
     taken: bool
     """Whether it was taken."""
     continues: bool
@@ -1406,6 +1408,12 @@ class DriveDirection(Record):
     computed."""
     never_jams: bool
     """Whether there is a solution however great the friction; false also where that was not computed."""
+    another_count: float | None = None
+    """Where there is a solution however great the friction: up to this factor there is the same number of them;
+    absent if that never changes."""
+    unique_at_least: float | None = None
+    """With friction in hinges: up to at least this factor there is exactly one solution; absent without it, and
+    where that is not proven."""
     moves_below: Unlocking | None = None
     """Where there is no solution: to what all friction would have to fall for one; absent where there is one,
     and where none comes."""
@@ -1611,6 +1619,8 @@ class EventReport(Record):
     """What happened, in words."""
     mode: str | None
     """The mode that follows; absent if the motion ends."""
+    attainable: Verdict | None = None
+    """Whether a real mechanism can follow that mode; absent if the motion ends, and where it was not computed."""
     branches: tuple[BranchReport, ...]
     """All possible modes, in order of preference, if there were several."""
     branches_left_out: bool = False

@@ -85,6 +85,14 @@ pub struct DriveDirection {
     pub no_solution: Option<f64>,
     /// Whether there is a solution however great the friction; false also where that was not computed.
     pub never_jams: bool,
+    /// Where there is a solution however great the friction: up to this factor there is the same number of them; absent if
+    /// that never changes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub another_count: Option<f64>,
+    /// With friction in hinges: up to at least this factor there is exactly one solution; absent without it, and where that is
+    /// not proven.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unique_at_least: Option<f64>,
     /// Where there is no solution: to what all friction would have to fall for one; absent where there is one, and
     /// where none comes.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -33,6 +33,7 @@ pub(super) fn direction(
     let report = solve_with(model, &options, &mut goes_on)?;
     let (stages, _) = Stages::with_standing(mechanism, configuration)?;
     let AllEfforts { solutions, range, frictionless, .. } = efforts(&report, &velocities(&stages));
+    let never_ends = report.margins.as_ref().filter(|margins| margins.no_solution.is_none());
     let found = DriveDirection {
         tips: report.tipping_in_the_end(),
         direction,
@@ -41,7 +42,9 @@ pub(super) fn direction(
         solutions,
         range,
         no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
-        never_jams: report.margins.as_ref().is_some_and(|margins| margins.no_solution.is_none()),
+        never_jams: never_ends.is_some(),
+        unique_at_least: report.unique_at_least,
+        another_count: never_ends.and_then(|margins| margins.another_count),
         moves_below: report.margins.as_ref().and_then(|margins| margins.moves_below),
         mu: only_mu(&stages.mechanism),
         blow_ups: blow_ups(&stages, work.part(1, 2))?,

@@ -4,7 +4,7 @@ use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
     EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
-use crate::report::effort::{self, times_friction};
+use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
 use crate::report::{Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
@@ -176,15 +176,6 @@ fn needs_several(report: &DriveReport, several: &[DriveSolution]) -> String {
     format!("{count} states are possible: {} needs {}.", drive.name, efforts.join(", or "))
 }
 
-/// A remark on the only state if a mechanism does not settle on it.
-fn unsettled(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Unattainable => " This state is unstable: a real mechanism leaves it.",
-        Verdict::Flutter => " It flutters unless its contacts are damped.",
-        _ => "",
-    }
-}
-
 /// "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is
 /// undetermined."
 fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &EffortRange) -> String {
@@ -207,13 +198,22 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
 fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Option<String> {
     if let Some(below) = &direction.moves_below {
         let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
-        return Some(format!("{what} below {}.", times_friction(below.factor, below.mu)));
+        return Some(format!("{what} below {}.", least_friction(below.factor, below.mu)));
     }
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
+        if let Some(factor) = direction.unique_at_least {
+            return Some(format!("it does not jam up to at least {}.", times(factor)));
+        }
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
-        return never.then(|| "it does not jam at any friction while it moves.".to_owned());
+        return never.then(|| match direction.another_count {
+            Some(changes) => format!(
+                "it does not jam at any friction while it moves, but from {} other states are possible.",
+                times_friction(changes, direction.mu.map(|mu| changes * mu))
+            ),
+            None => "it does not jam at any friction while it moves.".to_owned(),
+        });
     };
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {

@@ -247,6 +247,10 @@ impl ExpressionFaultKind {
             Self::ExpectedOperator { found } if found == "," => {
                 Some("write decimals with a point, as in 1.5".to_owned())
             }
+            Self::ExpectedOperator { found } if found == "1" => Some(
+                "a unit follows its number without a 1, as in `300/min` or `300 rpm`; write `*` to multiply"
+                    .to_owned(),
+            ),
             Self::ExpectedOperator { .. } | Self::UnknownFunction { is_name: true, .. } => {
                 Some(MULTIPLY.to_owned())
             }

@@ -2,7 +2,7 @@
 
 use super::conclusion::{Conclusion, conclusion};
 use super::found::{Elsewhere, Knowledge, Method, ModesFound};
-use super::guarantee::{guarantee, not_examined};
+use super::guarantee::{guarantee, is_examined, not_examined};
 use super::report::{
     CountLimits, Direction, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
     RangeWithoutProblem, SCHEMA, SpeedLimits, VariedQuantity,
@@ -194,6 +194,9 @@ impl Naming {
     }
 
     fn direction(&self, (found, Along { speeds, tipping }): Found<'_>) -> Direction {
+        let all_examined = is_examined(found);
+        let is_empty =
+            |one: &CountInterval| !all_examined && !one.continuum && one.solutions + one.gap_states == 0;
         let count =
             |((interval, known), tipping): ((&CountInterval, &Knowledge), &Option<Tipping>)| CountLimits {
                 from: found.same_ends.told(interval.from),
@@ -202,6 +205,7 @@ impl Naming {
                 preload_gap_states: interval.gap_states,
                 continuum: interval.continuum,
                 known: match known.elsewhere {
+                    Elsewhere::ClosedForm | Elsewhere::Sampled(_) if is_empty(interval) => Known::Undecided,
                     Elsewhere::Nothing => Known::Proven,
                     Elsewhere::ClosedForm => Known::ClosedForm,
                     Elsewhere::Sampled(_) => Known::Sampled,

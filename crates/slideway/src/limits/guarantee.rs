@@ -59,13 +59,24 @@ pub(super) fn not_examined(found: &ModesFound) -> Vec<String> {
             rigid.len()
         ));
     }
-    let left_out = singular.len() + existence.not_computed.len();
-    if left_out > 0 {
-        sentences.push(format!(
+    match singular.len() + existence.not_computed.len() {
+        0 => {}
+        1 => sentences.push(
+            "Not examined: 1 contact mode that is locked throughout, or too badly conditioned to be computed."
+                .to_owned(),
+        ),
+        left_out => sentences.push(format!(
             "Not examined: {left_out} contact modes that are locked throughout, or too badly conditioned to be computed."
-        ));
+        )),
     }
     sentences
+}
+
+/// Whether every mode was examined that statics determines: else one of the others may have a solution where none was found.
+pub(super) fn is_examined(found: &ModesFound) -> bool {
+    let existence = &found.existence;
+    let mut singular = existence.singular_throughout.iter();
+    existence.not_computed.is_empty() && singular.all(|pattern| existence.open.excess(pattern) > 0)
 }
 
 /// How the numbers of solutions are known.

@@ -62,8 +62,10 @@ impl Report for RestLimitsReport {
 }
 
 impl RestLimitsReport {
-    /// A sentence for each stretch; a single value beside it is not said to be in it.
+    /// A sentence for each stretch that is wide enough to be shown; a single value beside it is not said to be in it.
     fn in_sentences(&self) -> Vec<String> {
+        let shown = |at: f64| self.vary.shown_in.precise_number(at);
+        let is_hidden = |span: &SpanOfRest| span.from < span.to && shown(span.from) == shown(span.to);
         let is_alone =
             |span: Option<&SpanOfRest>, at: f64| span.is_some_and(|span| [span.from, span.to] == [at; 2]);
         let spans = self.spans.iter().enumerate();
@@ -72,7 +74,7 @@ impl RestLimitsReport {
             let ends = [is_alone(before, span.from), is_alone(self.spans.get(index + 1), span.to)];
             self.in_words(span, if span.from < span.to { ends } else { [false; 2] })
         };
-        spans.map(sentence).collect()
+        spans.filter(|(_, span)| self.spans.len() == 1 || !is_hidden(span)).map(sentence).collect()
     }
 
     /// "mu from 0.2 to 1: it holds.", "Q above 0, up to 20 N: it does not hold." where the ends that are marked do not
@@ -168,11 +170,12 @@ impl Page<'_, LimitsReport> {
         let unit = &self.report.vary.shown_in;
         let [from, to] = ["from", "to"].map(|end| unit.title(end));
         let verbose = self.is_verbose();
-        let has_orientation = modes.iter().any(|mode| mode.orientation.is_some());
+        // The sign of their determinant tells solutions apart where some are negative.
+        let has_orientation = modes.iter().any(|mode| mode.orientation == Some(-1));
         let mut titles = vec![from.as_str(), &to, "contact mode", "ends with"];
         if verbose {
             titles = vec!["signs", &from, &to, "begins with", "ends with"];
-            titles.extend(has_orientation.then_some("oriented"));
+            titles.extend(has_orientation.then_some("orientation"));
         }
         let row = |mode: &ModeLimits| {
             let mut row = mode_row(mode, unit, verbose);

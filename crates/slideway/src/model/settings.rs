@@ -122,7 +122,7 @@ impl Model {
             }
         }
         faults.append(model.check(true));
-        faults.or(model)
+        faults.without_consequences().or(model)
     }
 
     /// The model with all rates of its coordinates reversed, formulas of parameters among them.

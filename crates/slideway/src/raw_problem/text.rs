@@ -89,6 +89,15 @@ impl Text<'_> {
         let report = self.report;
         self.status(report.status, &report.answer());
         let proof = match report.complete {
+            // What holds within rounding is proven, too.
+            Proof::Proven
+                if report
+                    .within_rounding
+                    .as_ref()
+                    .is_some_and(|near| near.answer == WithinRoundingAnswer::None) =>
+            {
+                ""
+            }
             Proof::Proven if report.status == Status::None => "Proven.",
             Proof::Proven => "Proven: there are no others.",
             // That was said.
@@ -108,16 +117,16 @@ impl Text<'_> {
         let Some(WithinRounding { relative, answer, unknowns, .. }) = &self.report.within_rounding else {
             return;
         };
-        let rounding = format!("rounding of the numbers (relative {relative:e})");
+        let rounding = format!("rounding alone (relative {relative:e})");
         let Some(unknowns) = unknowns else {
             self.line(&if *answer == WithinRoundingAnswer::None {
-                format!("Proven: within {rounding} there is none, either.")
+                format!("Proven: there is none, nor any for numbers that differ by {rounding}.")
             } else {
-                format!("Not decided: whether there is one within {rounding}.")
+                format!("Not decided: whether there is one for numbers that differ by {rounding}.")
             });
             return;
         };
-        self.line(&format!("Hint: within {rounding} there is one:"));
+        self.line(&format!("Hint: for numbers that differ by {rounding} there is one:"));
         self.line("");
         self.unknowns(unknowns, &[]);
     }
@@ -158,7 +167,9 @@ impl Text<'_> {
     fn solutions(&mut self, title: &str, all: &str, solutions: &[RawSolution]) {
         for (at, solution) in solutions.iter().enumerate() {
             self.line("");
-            let told = self.is_verbose() && solution.signs.len() <= SIGNS;
+            // Of a game the strategies say all.
+            let is_game = self.report.kind == RawKind::Game;
+            let told = self.is_verbose() && !is_game && solution.signs.len() <= SIGNS;
             let signs = if told { signs(solution) } else { String::new() };
             self.headed(&format!("{title} {} of {all}", at + 1), format!("   {signs}").trim_end());
             self.boundary(solution);

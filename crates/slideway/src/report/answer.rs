@@ -1,6 +1,6 @@
 //! The plain answer of `solve`, as one would say it to a colleague.
 
-use super::effort::{self, times_friction};
+use super::effort::{self, least_friction, times, times_friction};
 use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
@@ -22,7 +22,7 @@ impl SolveReport {
                 Some(tipping) => format!("No answer: {}.", tipping.in_words()),
                 None => format!("It jams: {}.", self.nothing_moves_it()),
             },
-            Status::One => self.moves_in_words(),
+            Status::One => format!("{}{}", self.moves_in_words(), self.unsettled()),
             Status::Several => self.ways_in_words(),
             Status::Continuum => self.open_in_words(),
             Status::PreloadGap => self.gap_in_words(),
@@ -46,7 +46,7 @@ impl SolveReport {
         }
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
-            let below = margins.moves_below.map(|below| times_friction(below.factor, below.mu));
+            let below = margins.moves_below.map(|below| least_friction(below.factor, below.mu));
             return below
                 .map(|below| format!("It {} below {below}.", self.what_ends()))
                 .into_iter()
@@ -56,7 +56,11 @@ impl SolveReport {
         let mut sentences = Vec::new();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
-            sentences.push(format!("The number of solutions changes from {}.", at(changes)));
+            sentences.push(if self.status == Status::One {
+                format!("From {} it has several ways to go on.", at(changes))
+            } else {
+                format!("The number of solutions changes from {}.", at(changes))
+            });
         }
         let any_load = self.any_load_in_words(margins);
         match jams {
@@ -135,6 +139,14 @@ impl SolveReport {
             [] => "It has one solution.".to_owned(),
             [change] => format!("It {change}."),
             changes => format!("It moves: {}.", changes.join(", ")),
+        }
+    }
+
+    /// A remark on the only solution if a mechanism does not settle on it.
+    fn unsettled(&self) -> &'static str {
+        match self.solutions.as_slice() {
+            [only] => effort::unsettled(only.attainability.verdict),
+            _ => "",
         }
     }
 
@@ -235,7 +247,7 @@ impl SolveReport {
     /// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
     fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
         let factor = margins.uniqueness?;
-        let times = format!("{} times this friction", brief(factor));
+        let times = times(factor);
         let [no, other] = if self.sharing.is_some() {
             ["no load, play, misalignment or stiffness", "Other loads, play, misalignment or stiffness"]
         } else {
@@ -249,9 +261,8 @@ impl SolveReport {
     }
 
     fn without_margins(&self) -> Vec<String> {
-        let least = self
-            .unique_at_least
-            .map(|factor| safe_up_to("no load", &format!("at least {} times this friction", brief(factor))));
+        let least =
+            self.unique_at_least.map(|factor| safe_up_to("no load", &format!("at least {}", times(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()

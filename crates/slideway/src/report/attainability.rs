@@ -134,7 +134,7 @@ impl Attainability {
     fn separates_in_words(&self) -> String {
         let to = |fate: &Fate| match fate {
             Fate::Solution(number) => Some(format!("goes over to solution {number}")),
-            Fate::Jamming => Some("jams".to_owned()),
+            Fate::Jamming => Some("locks up, its forces growing without limit".to_owned()),
             Fate::NotComputed => None,
         };
         match self.separates.as_ref().map(|fates| fates.each_ref().map(to)) {

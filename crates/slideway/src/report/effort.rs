@@ -1,5 +1,6 @@
 //! The words for efforts, and for how much friction there may be.
 
+use super::Verdict;
 use crate::units::brief;
 
 /// The effort of a drive, with friction and without: "push needs 36.36 N (20 N without friction)".
@@ -14,8 +15,21 @@ pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str) -> String
 /// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222
 /// times this friction)".
 pub(crate) fn times_friction(factor: f64, mu: Option<f64>) -> String {
-    let times = format!("{} times this friction", brief(factor));
+    let times = times(factor);
     mu.map_or(times.clone(), |mu| format!("mu = {} ({times})", brief(mu)))
+}
+
+/// Below which friction it moves: the coefficient if there is one, else the factor: "mu = 0.6667".
+pub(crate) fn least_friction(factor: f64, mu: Option<f64>) -> String {
+    mu.map_or_else(|| times(factor), |mu| format!("mu = {}", brief(mu)))
+}
+
+/// A factor on all friction: "2.222 times this friction".
+pub(crate) fn times(factor: f64) -> String {
+    match factor {
+        1e6 => "a million times this friction".to_owned(),
+        factor => format!("{} times this friction", brief(factor)),
+    }
 }
 
 /// The kind of an effort in this SI unit: "force", "torque"; none of other quantities.
@@ -24,5 +38,14 @@ pub(crate) fn kind(unit: &str) -> Option<&'static str> {
         "N" => Some("force"),
         "N m" => Some("torque"),
         _ => None,
+    }
+}
+
+/// A remark on the only state if a mechanism does not settle on it.
+pub(crate) fn unsettled(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Unattainable => " This state is unstable: a real mechanism leaves it.",
+        Verdict::Flutter => " It flutters unless its contacts are damped.",
+        _ => "",
     }
 }

@@ -31,8 +31,9 @@ pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> St
     }
 }
 
-/// The contact mode of a sliding joint, as [`mode_in_words`] has it; of one that shares its load with others,
-/// what each of its contacts does, "open" where its normal force is 0. Press fits are on one face or on both.
+/// The contact mode of a sliding joint, as [`mode_in_words`] has it; of one that shares its load with others
+/// and has other contacts than the two ends of a block, what each of them does, "open" where its normal force is 0. Press fits
+/// are on one face or on both.
 pub(crate) fn joint_mode_in_words(
     mechanism: &Mechanism,
     slider: &Slider,
@@ -58,6 +59,12 @@ pub(crate) fn joint_mode_in_words(
         .places_of(slider)
         .map(|contact| (mechanism.contacts[contact.index()].place(), of_place(contact)))
         .collect();
+    // Two ends on a face each, or one in the air, are the corners of a block as anywhere else.
+    if let (SliderKind::Block, [(_, Some(front)), (_, Some(rear))]) = (slider.kind, contacts.as_slice())
+        && [*front, *rear] != [0; 2]
+    {
+        return mode_in_words(slider, tangent, &[*front, *rear]);
+    }
     let guide = GuideInWords { tangent, around: slider.around };
     let place = |sign: Option<i8>| match (slider.kind, sign) {
         (_, Some(0)) => "open".to_owned(),

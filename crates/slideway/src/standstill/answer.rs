@@ -209,6 +209,9 @@ fn threshold(known: &Threshold, value: f64) -> String {
     if known.varied != "static friction" {
         return now(&known.varied, value, known.present);
     }
+    if let Some((name, present)) = &known.parameter {
+        return now(name, present * value, *present);
+    }
     let mut coefficients = known.coefficients.iter().flat_map(|one| one.mu_static);
     match coefficients.next() {
         Some(first) if !known.friction_in_hinges && coefficients.all(|other| other == first) => {

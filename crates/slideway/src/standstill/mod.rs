@@ -293,9 +293,10 @@ pub(crate) fn self_locking_factor(
 /// # Errors
 /// Several loads, or none, of which one would have to be named.
 fn with_load(model: &Model, options: &HoldOptions) -> Result<HoldOptions, Faults> {
-    if options.vary.is_none() || options.load.is_some() {
+    let Some(varied) = options.vary.as_deref().filter(|_| options.load.is_none()) else {
         return Ok(options.clone());
-    }
+    };
+    threshold::check_varied(model, varied)?;
     Ok(options.clone().load(&only_load(model)?))
 }
 

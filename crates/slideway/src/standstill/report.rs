@@ -180,6 +180,9 @@ pub struct Threshold {
     pub varied: String,
     /// Its value in the model: 1 for the factor.
     pub present: f64,
+    /// Of the factor: the parameter to which all of this friction is proportional, and its value, where there is just one.
+    #[serde(skip)]
+    pub(crate) parameter: Option<(String, f64)>,
     /// Where the threshold lies: self-locking, or wedged, from this value on, free below it; 0 if friction is not
     /// needed, nothing if no friction suffices.
     pub value: Option<f64>,

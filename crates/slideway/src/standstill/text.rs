@@ -91,10 +91,8 @@ impl Text<'_> {
         let details = self.is_verbose();
         let lines = wedges(wedging);
         lines.iter().for_each(|line| self.line(line));
-        if let Some(coefficients) = coefficients_in_words(&wedging.threshold).filter(|_| details)
-            && !lines.iter().any(|line| line.contains(&coefficients))
-        {
-            self.line(&format!("There {coefficients}."));
+        if let Some(coefficients) = coefficients_in_words(&wedging.threshold).filter(|_| details) {
+            self.line(&format!("The friction from which they can: {coefficients}."));
         }
     }
 
@@ -106,7 +104,9 @@ impl Text<'_> {
         if !self.is_verbose() {
             return;
         }
-        report.motions_without_inertia.iter().for_each(|motion| self.line(&format!("  {motion}")));
+        for motion in &report.motions_without_inertia {
+            self.hung(&format!("  without mass: {motion}"), "without mass: ");
+        }
         if let Some(load) = report.load.as_ref().filter(|load| load.threshold.undecided == 0) {
             let coefficients = coefficients_in_words(&load.threshold).map(|list| format!(": {list}"));
             self.line(&format!("{}{}.", threshold_in_words(load), coefficients.unwrap_or_default()));

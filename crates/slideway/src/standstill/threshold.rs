@@ -49,6 +49,8 @@ const GREATEST: f64 = 1e6;
 struct Law {
     varied: String,
     present: f64,
+    /// Of a factor: the only parameter to which all of this friction is proportional, with its value, if there is one.
+    parameter: Option<(String, f64)>,
     /// The coefficients of each contact and side.
     lines: Vec<[[f64; 2]; 2]>,
     /// The coefficient of each pin, or the radius of a friction circle that is given.
@@ -115,13 +117,26 @@ pub(super) fn wedging(
     Ok(Some(told(setup, &law, &least)))
 }
 
+/// Whether a name stands for a factor on all friction, not for a parameter.
+fn is_factor(model: &Model, name: &str) -> bool {
+    name == FRICTION && model.parameters.iter().all(|one| &*one.name != name)
+}
+
+/// That what is varied without a range is friction, whatever the load.
+///
+/// # Errors
+/// A name that is unknown, or on which other things than friction depend.
+pub(super) fn check_varied(model: &Model, name: &str) -> Result<(), Faults> {
+    if is_factor(model, name) { Ok(()) } else { friction_parameter(model, name).map(|_| ()) }
+}
+
 /// How static friction depends on what is varied.
 fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Faults> {
-    let is_factor = |name: &str| name == FRICTION && model.parameters.iter().all(|one| &*one.name != name);
-    match options.vary.as_deref().filter(|name| !is_factor(name)) {
+    match options.vary.as_deref().filter(|name| !is_factor(model, name)) {
         None => Ok(Law {
             varied: "static friction".to_owned(),
             present: 1.0,
+            parameter: only_parameter(model, setup),
             lines: static_friction(setup).mu.iter().map(|mu| mu.map(|mu| [0.0, mu])).collect(),
             hinges: {
                 let circles = setup.mechanism.friction_circles.iter();
@@ -138,6 +153,7 @@ fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Optio
     Threshold {
         varied: law.varied.clone(),
         present: law.present,
+        parameter: law.parameter.clone(),
         value,
         undecided,
         coefficients: named
@@ -304,20 +320,8 @@ fn secant(
 /// How the static coefficients depend on a parameter: they must be `constant + slope p` with a slope that is
 /// not negative, which their formulas tell, and nothing else but friction may depend on it.
 fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults> {
-    let known = || model.parameters.iter().map(|parameter| &*parameter.name);
-    let Some(parameter) = known().position(|other| other == name) else {
-        let kind = FaultKind::UnknownName {
-            what: "parameter",
-            name: name.to_owned(),
-            nearest: nearest(name, known()),
-            known: known().map(str::to_owned).collect(),
-        };
-        return Err(Fault::general(kind).into());
-    };
-    let refused = || Faults::from(Fault::general(FaultKind::NotOnlyFriction { parameter: name.to_owned() }));
-    if !model.changes_friction_and_pins_alone(parameter) {
-        return Err(refused());
-    }
+    let parameter = friction_parameter(model, name)?;
+    let refused = || not_only_friction(name);
     let line = |formula: FormulaId| {
         let line = model.line_of(formula, parameter).filter(|[_, slope]| *slope >= 0.0)?;
         Some(line.map(|number| model.friction * number))
@@ -336,5 +340,40 @@ fn parameter_law(model: &Model, setup: &Setup, name: &str) -> Result<Law, Faults
         return Err(refused());
     }
     let present = model.parameter_values(&model.constants()?)[parameter];
-    Ok(Law { varied: name.to_owned(), present, lines, hinges })
+    Ok(Law { varied: name.to_owned(), present, parameter: None, lines, hinges })
+}
+
+/// The only parameter to which all static friction is proportional, with its value, if there is one.
+fn only_parameter(model: &Model, setup: &Setup) -> Option<(String, f64)> {
+    let laws = model.parameters.iter().filter_map(|one| parameter_law(model, setup, &one.name).ok());
+    let is_proportional =
+        |law: &Law| law.lines.iter().flatten().chain(&law.hinges).all(|[constant, _]| *constant == 0.0);
+    let mut proportional = laws.filter(is_proportional);
+    let only = proportional.next()?;
+    proportional.next().is_none().then_some((only.varied, only.present))
+}
+
+/// The number of a parameter on which nothing but friction depends.
+///
+/// # Errors
+/// Another name.
+fn friction_parameter(model: &Model, name: &str) -> Result<usize, Faults> {
+    let known = || model.parameters.iter().map(|parameter| &*parameter.name);
+    match known().position(|other| other == name) {
+        Some(parameter) if model.changes_friction_and_pins_alone(parameter) => Ok(parameter),
+        None if model.coordinates.iter().all(|one| &*one.name != name) => {
+            let kind = FaultKind::UnknownName {
+                what: "parameter",
+                name: name.to_owned(),
+                nearest: nearest(name, known()),
+                known: known().map(str::to_owned).collect(),
+            };
+            Err(Fault::general(kind).into())
+        }
+        _ => Err(not_only_friction(name)),
+    }
+}
+
+fn not_only_friction(name: &str) -> Faults {
+    Fault::general(FaultKind::NotOnlyFriction { parameter: name.to_owned() }).into()
 }

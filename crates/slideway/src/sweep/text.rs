@@ -46,6 +46,8 @@ impl Sweep {
         let [of, ending] =
             if self.has_branches() { ["of them", ""] } else { ["of the samples", " and are not counted"] };
         sentences.extend((several > 0).then(|| format!("{several} {of} have several solutions.")));
+        let open = tally.with_status(PointStatus::Unknown);
+        sentences.extend((open > 0).then(|| format!("{open} {of} are not decided.")));
         sentences.extend((unsolved > 0).then(|| format!("{unsolved} {of} could not be solved{ending}.")));
         sentences.join(" ")
     }

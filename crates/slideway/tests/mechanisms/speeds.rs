@@ -90,7 +90,7 @@ fn a_peg_that_slows_down_stops_and_stays() {
     let text = report.text(Style::PLAIN.verbose(true).width(200));
     for sentence in [
         "It slows down and would stop after 4.545e-7 s and 2.273e-7 mm.",
-        "It slows down because friction exceeds the loads. Whether it jams, however hard it is pushed, is a question about a drive: add one, or see `slideway hold`.",
+        "It slows down because friction exceeds the loads. Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.",
         "Once it is at rest, these loads would not move it again.",
         "This contact mode remains however much friction grows, but the motion slows down in it.",
     ] {
@@ -210,7 +210,7 @@ fn a_rate_that_is_not_given_is_not_told_as_one() {
 /// The same sentence wherever a load that friction stops could be taken for one that does not jam.
 #[test]
 fn every_answer_on_a_load_says_how_to_ask_whether_it_jams() {
-    const HOW: &str = "Whether it jams, however hard it is pushed, is a question about a drive: add one, or see `slideway hold`.";
+    const HOW: &str = "Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.";
     let told = |push: &str| -> Vec<String> {
         let model = Model::parse(&peg("0.3", push)).unwrap();
         let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 0.5))).unwrap();

@@ -529,7 +529,7 @@ fn sticking_and_slipping_joints_coexist() {
 #[case(options("Q"), "there is no load named `Q`")]
 #[case(options("spring"), "the load spring is zero at rest, so no factor changes it")]
 #[case(options("P").vary("mu_9"), "there is no parameter named `mu_9`")]
-#[case(options("P").vary("alpha"), "`alpha` is not a parameter of static friction alone")]
+#[case(options("P").vary("alpha"), "`alpha` needs a range: alpha=FROM..TO")]
 fn faulty_questions_are_refused(#[case] options: HoldOptions, #[case] message: &str) {
     let model = model("klepp-2002").with(&parameters(&[("P", "1 N")])).expect("sound settings");
     let faults = hold(&model, &options).expect_err("refused");

@@ -37,7 +37,7 @@ pub(super) fn read(text: &str) -> Result<Model, Faults> {
     if unreadable {
         faults = faults.without_absences();
     }
-    faults.without_names_of_unknown_sections().or(model)
+    faults.without_names_of_unknown_sections().without_consequences().or(model)
 }
 
 /// Whether an entry is a sliding joint; one that could not be read may be one.

@@ -31,6 +31,16 @@ pub(super) fn attainability(
         .unwrap_or_else(|reason| Attainability::without_eigenvalues(Verdict::NotComputed, reason))
 }
 
+/// The verdict on a phase that was followed; not computed where it has no equations.
+pub(in crate::motion) fn verdict_on(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Verdict {
+    let instant = Instant::looking_ahead(mechanism, configuration);
+    instant.map_or(Verdict::NotComputed, |instant| verdict(&instant, configuration, phase))
+}
+
 /// Only the verdict of [`attainability`].
 pub(super) fn verdict(instant: &Instant<'_>, configuration: &Configuration, phase: &Phase) -> Verdict {
     let ask = |guides: &ElasticGuides<'_>, states: &[ContactState]| guides.verdict_on(states);

@@ -89,6 +89,7 @@ mod vanishing;
 #[cfg(test)]
 pub(super) use assessment::ASSESSED;
 pub(super) use determined::{DeterminedForces, determined_forces};
+pub(super) use elastic::verdict_on;
 pub(super) use impact::impact_within;
 pub use impact::{Blow, Impact, impact};
 pub use jam::{Impulse, Jam, jam};

@@ -93,6 +93,7 @@ mod tests {
             causes: vec![CauseReport { kind: *kind, of: Some("guide".to_owned()) }],
             words: String::new(),
             mode: None,
+            attainable: None,
             branches: Vec::new(),
             branches_left_out: false,
             energy_lost: *energy_lost,

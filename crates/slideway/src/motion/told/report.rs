@@ -6,10 +6,11 @@ use crate::choice::kinds;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
 use crate::mechanism::{Mechanism, Pad};
+use crate::motion::decision::verdict_on;
 use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
-use crate::motion::record::event::Event;
+use crate::motion::record::event::{Event, modes_in_words};
 use crate::motion::record::history::{End, Energy, History, PhaseInterval};
 use crate::pattern::phase::JointPhase;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
@@ -82,6 +83,9 @@ pub struct EventReport {
     pub words: String,
     /// The mode that follows; absent if the motion ends.
     pub mode: Option<String>,
+    /// Whether a real mechanism can follow that mode; absent if the motion ends, and where it was not computed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub attainable: Option<Verdict>,
     /// All possible modes, in order of preference, if there were several.
     pub branches: Vec<BranchReport>,
     /// Whether further modes, in which fewer joints stick, may be possible: there are too many states to try
@@ -110,6 +114,8 @@ pub struct BranchReport {
     pub number: usize,
     /// The mode.
     pub mode: String,
+    /// Where each sliding joint touches its guide in it, or that it sticks.
+    pub words: String,
     /// Whether it was taken.
     pub taken: bool,
     /// Whether it continues the motion without a jump in the forces.
@@ -265,6 +271,7 @@ pub struct SampledReport {
 pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
     let mechanism = &history.mechanism;
     let (last, energies) = history.at_end();
+    let events = event_reports(history);
     SimulateReport {
         schema: SCHEMA,
         model: ModelSummary {
@@ -284,14 +291,8 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
         initial: state(history, &history.initial),
         steps_from_drawing: history.initial.steps_from_drawing(),
         last: state(history, &last),
-        events: history
-            .events
-            .iter()
-            .filter(|event| event.is_reported())
-            .map(|event| event_report(history, event))
-            .collect(),
         phases: phases(history),
-        end: end_report(history, options),
+        end: end_report(history, options, &events),
         hints: hints(history),
         energy: energy(history, (&last, &energies)),
         position_drift: history.drift.position,
@@ -300,12 +301,13 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             steps: history.statistics.steps,
             repeated: history.statistics.rejected,
             evaluations: history.statistics.evaluations,
-            events: history.events.iter().filter(|event| event.is_reported()).count(),
+            events: events.len(),
             sampled: (history.statistics.sampled > 0.0).then_some(SampledReport {
                 time: history.statistics.sampled,
                 longest_step: history.statistics.sampled_step,
             }),
         },
+        events,
         samples: None,
     }
 }
@@ -356,17 +358,47 @@ fn state(history: &History, configuration: &Configuration) -> Vec<CoordinateStat
         .collect()
 }
 
-fn end_report(history: &History, options: &SimulateOptions) -> EndReport {
+fn end_report(history: &History, options: &SimulateOptions, events: &[EventReport]) -> EndReport {
     let locked =
         matches!(history.end, End::NoContinuation | End::Jammed | End::Tips(_) | End::ReactionLimit(_));
-    EndReport { kind: history.end.kind(), words: end_in_words(history, options), locked }
+    let follows = |verdict: Verdict| events.iter().any(|event| event.attainable == Some(verdict));
+    let mut words = end_in_words(history, options);
+    if follows(Verdict::Unattainable) {
+        words += " On the way it is in an unstable state, which a real mechanism leaves.";
+    } else if follows(Verdict::Flutter) {
+        words += " On the way it flutters unless its contacts are damped.";
+    }
+    EndReport { kind: history.end.kind(), words, locked }
 }
 
-fn event_report(history: &History, event: &Event) -> EventReport {
+fn event_reports(history: &History) -> Vec<EventReport> {
+    let mut reader = history.reader();
+    let reported = history.events.iter().filter(|event| event.is_reported());
+    reported
+        .map(|event| {
+            let configuration = reader.configuration(event.time).unwrap_or(&history.initial);
+            event_report(history, event, configuration)
+        })
+        .collect()
+}
+
+/// The verdict on what follows an event: with several possible modes it is known, else it is determined.
+fn attainable(history: &History, event: &Event, configuration: &Configuration) -> Option<Verdict> {
+    let taken = event.taken.and_then(|taken| event.successors.get(taken));
+    let known = taken.map(|taken| taken.verdict).filter(|verdict| *verdict != Verdict::NotComputed);
+    let determined = || {
+        let phase = event.phase.as_ref().filter(|phase| !phase.is_at_rest())?;
+        Some(verdict_on(&history.mechanism, configuration, phase))
+    };
+    known.or_else(determined).filter(|verdict| *verdict != Verdict::NotComputed)
+}
+
+fn event_report(history: &History, event: &Event, configuration: &Configuration) -> EventReport {
     let mechanism = &history.mechanism;
     let branch = |(index, successor): (usize, &crate::motion::decision::rules::Continuation)| BranchReport {
         number: index + 1,
         mode: successor.phase.pattern(mechanism),
+        words: modes_in_words(mechanism, configuration, &successor.phase),
         taken: event.taken == Some(index),
         continues: successor.continues,
         attainable: successor.verdict,
@@ -389,6 +421,7 @@ fn event_report(history: &History, event: &Event) -> EventReport {
             .collect(),
         words: event.words.clone(),
         mode: event.phase.as_ref().map(|phase| phase.pattern(mechanism)),
+        attainable: attainable(history, event, configuration),
         branches: if several {
             event.successors.iter().enumerate().map(branch).collect()
         } else {

@@ -189,20 +189,17 @@ impl Page<'_, SimulateReport> {
             if details { format!("{when:>time$}   {pattern:mode$}   ") } else { format!("{when:>time$}   ") }
         };
         let first = columns(&when(event, &self.seconds()), &pattern);
-        self.hung(&format!("  {first}{}", event.words), first.trim_start());
+        let note = event.attainable.map_or("", unsettled);
+        self.hung(&format!("  {first}{}{note}", event.words), first.trim_start());
         let below = columns("", "");
         let mut line = |text: &str| self.hung(&format!("  {below}{text}"), "");
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
             let jump = if branch.continues { "" } else { "; its forces jump" };
             let sticks = branch.mode.chars().all(|sign| sign == '=');
-            let otherwise = if sticks { "stick" } else { "go on in another contact mode" };
-            let signs = format!(", signs {}", spaced(&branch.mode));
-            let signs = if details || !sticks { signs } else { String::new() };
-            line(&format!(
-                "or branch {}: it could also {otherwise}{}{signs}{jump}",
-                branch.number,
-                verdict(branch.attainable),
-            ));
+            let otherwise = if sticks { "it could also stick" } else { &branch.words };
+            let signs = if details { format!(", signs {}", spaced(&branch.mode)) } else { String::new() };
+            let verdict = verdict(branch.attainable);
+            line(&format!("or branch {}: {otherwise}{verdict}{signs}{jump}", branch.number));
         }
         if event.branches_left_out {
             line("there may be more ways to go on, with fewer joints sticking: not all were tried");
@@ -244,9 +241,11 @@ impl Page<'_, SimulateReport> {
         self.line("");
         let (unit, part) = (report.model.units.of("J"), report.energy.relative_error);
         let error = unit.with(&format!("{:.1e}", unit.number_of(report.energy.error)));
+        let part = part.filter(|_| self.is_verbose() && report.energy.error != 0.0);
+        let part = part.map_or_else(String::new, |part| format!(", {part:.1e} of its greatest part"));
         let closes = match report.energy.error {
             0.0 => "the energy balance closes".to_owned(),
-            _ => format!("the energy balance closes to {error}"),
+            _ => format!("the energy balance closes to {error}{part}"),
         };
         self.line(&format!("Computed step by step, not proven: {closes}."));
         let statistics = &report.statistics;
@@ -257,9 +256,6 @@ impl Page<'_, SimulateReport> {
         }
         if !self.is_verbose() {
             return;
-        }
-        if let Some(part) = part.filter(|_| report.energy.error != 0.0) {
-            self.line(&format!("The error of the energy is {part:.1e} of its greatest part."));
         }
         if let Some(sampled) = &statistics.sampled {
             self.line(&format!(
@@ -296,11 +292,20 @@ fn row(name: &str, mut values: Vec<String>) -> Vec<String> {
     values
 }
 
+/// A remark on the mode that follows if a mechanism does not settle on it.
+fn unsettled(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Unattainable => " (unstable: a real mechanism leaves this state)",
+        Verdict::Flutter => " (it flutters unless its contacts are damped)",
+        _ => "",
+    }
+}
+
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
-        Verdict::Attainable => ", stable",
-        Verdict::Unattainable => ", unstable",
-        Verdict::Flutter => ", with flutter",
+        Verdict::Attainable => " (stable)",
+        Verdict::Unattainable => " (unstable)",
+        Verdict::Flutter => " (it flutters)",
         Verdict::Undecided | Verdict::NotComputed => "",
     }
 }

@@ -28,15 +28,13 @@ pub(super) struct BlocksFound<'f> {
 impl BlocksFound<'_> {
     fn strategy(&self) -> String {
         let why = match self.result.unique_for_every_load {
-            Some(UniqueForEveryLoad::BlockNorms) => {
-                "; every load has one solution, by the norms of the blocks"
-            }
+            Some(UniqueForEveryLoad::BlockNorms) => "; a bound on norms proves one solution for every load",
             Some(UniqueForEveryLoad::ScaledNorm) => {
-                "; every load has one solution, by scaled singular values"
+                "; a bound on scaled singular values proves one solution for every load"
             }
             None => "",
         };
-        format!("friction in hinges, sectors of directions{why}")
+        format!("friction in hinges, by sectors of the directions of their forces{why}")
     }
 
     /// What keeps the list of solutions from being proven complete.
