@@ -172,6 +172,12 @@ impl ProblemData<'_> {
                 velocity_signs: velocity_signs.clone(),
                 frictionless: DVector::from_fn(rows, |row, _| without_friction(row)),
                 shared: shared_load(mechanism, self_stress)?,
+                one_sided: influence.one_sided(|opening| {
+                    DVector::from_fn(rows, |row, _| {
+                        let part = entry(row, opening);
+                        if row < own.len() && part.abs() <= NO_INFLUENCE { 0.0 } else { part }
+                    })
+                }),
             },
             couples: DMatrix::from_fn(rows, hinges.len(), |row, hinge| {
                 entry(row, &influence.couples[hinges[hinge].circle])

@@ -48,6 +48,7 @@ pub(super) fn setup(
     (signs, rounding): (&[Option<f64>], f64),
 ) -> Result<Setup, Faults> {
     mechanism.check_no_press_fit("what follows in time")?;
+    mechanism.check_no_one_sided("what follows in time")?;
     mechanism.check_determinate("what follows in time")?;
     let equations = KineticEquations::new(mechanism, configuration)?;
     let mut at_speeds = mechanism.clone();
