@@ -35,7 +35,7 @@ pub struct Influence {
 }
 
 /// Friction of one contact, split by where it acts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ContactFriction {
     /// At the face that is pressed when the normal force is positive (N).
     pub positive_face: f64,

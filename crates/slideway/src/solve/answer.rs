@@ -589,10 +589,11 @@ impl<'a> Answer<'a> {
             let eta = self.influence.eta(side);
             eta.row_iter().map(|row| row.iter().copied().collect()).collect()
         };
+        let without_friction = self.data().without_friction();
         report::InfluenceSummary {
-            coordinate_accelerations: self.equations.coordinate_accelerations(&self.influence.frictionless),
+            coordinate_accelerations: self.equations.coordinate_accelerations(&without_friction),
             normal_forces: self.influence.normal_forces().iter().copied().collect(),
-            drives: self.drives(&self.influence.frictionless),
+            drives: self.drives(&without_friction),
             eta_positive: rows(0),
             eta_negative: rows(1),
         }

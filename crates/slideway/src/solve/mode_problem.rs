@@ -3,20 +3,22 @@
 use super::no_sliding::why;
 use super::parts::Parts;
 use super::sharing::check_assembly;
+use super::tolerant::StatesWithinTolerances;
 use crate::configuration::{Configuration, staying};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{ContactId, JointId};
-use crate::influence::Influence;
+use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
+use crate::progress::Progress;
 use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
 use crate::sharing::{shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Velocities of sliding and turning below this multiple of the greatest velocity count as zero.
 pub(super) const AT_REST: f64 = 1e-12;
@@ -184,6 +186,27 @@ impl ProblemData<'_> {
             }),
             hinges: hinges.iter().map(|hinge| (*hinge, mechanism.friction_circles[hinge.circle])).collect(),
         })
+    }
+
+    /// All unknowns without friction and preloads. Contacts that would have to pull lift off then, so that these are those of
+    /// the only state without friction; of the closed contacts if drives leave none or several.
+    pub(crate) fn without_friction(self) -> DVector<f64> {
+        let closed = &self.influence.frictionless;
+        if self.mechanism.one_sided().next().is_none() {
+            return closed.clone();
+        }
+        let mut smooth = self.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|_| 0.0);
+        smooth.contacts.iter_mut().for_each(|contact| contact.preload = [0.0; 2]);
+        let none = vec![ContactFriction::default(); smooth.contacts.len()];
+        let found = ProblemData { mechanism: &smooth, ..self }.problem().ok().and_then(|problem| {
+            let mut goes_on = |_: &Progress| ControlFlow::Continue(());
+            StatesWithinTolerances::of(&problem, &smooth.excess.open, &mut goes_on)
+        });
+        match found.as_ref().map(|found| found.states.as_slice()) {
+            Some([state]) => self.influence.unknowns(&none, &state.force),
+            _ => closed.clone(),
+        }
     }
 
     /// The mode problem.

@@ -172,12 +172,11 @@ impl System {
     /// bodies.
     fn coordinates(&self) -> Vec<(String, f64)> {
         let mut rows = self.joint_rows();
-        let mut left = 3 * self.bodies.len() - rows.len();
         let mut chosen = Vec::new();
         let drives = self.drives.iter().enumerate().map(|(index, drive)| {
             let axis = if drive.direction[0].abs() > 0.5 { "x" } else { "y" };
             let row = self.place(&drive.body, drive.at, if axis == "x" { Vector::x() } else { Vector::y() });
-            (row, format!("{axis} = \"{}.drive_{index}\"", drive.body), true)
+            (row, format!("{axis} = \"{}.drive_{index}\"", drive.body))
         });
         let of_bodies = self.bodies.iter().enumerate().flat_map(|(index, body)| {
             let centre = [body.pose[0], body.pose[1]];
@@ -187,23 +186,26 @@ impl System {
             turn[3 * index + 2] = 1.0;
             let name = &body.name;
             [
-                (x, format!("x = \"{name}.{name}_centre\""), false),
-                (turn, format!("rotation = \"{name}\""), false),
-                (y, format!("y = \"{name}.{name}_centre\""), false),
+                (x, format!("x = \"{name}.{name}_centre\"")),
+                (turn, format!("rotation = \"{name}\"")),
+                (y, format!("y = \"{name}.{name}_centre\"")),
             ]
         });
-        for (row, what, is_driven) in drives.chain(of_bodies) {
-            rows.push(row.clone());
-            let matrix = DMatrix::from_columns(&rows);
-            let values = matrix.singular_values();
-            if left > 0 && (is_driven || values.min() > 1e-2 * values.max()) {
-                chosen.push((what, row.dot(&self.velocities())));
-                left -= 1;
-            } else {
-                rows.pop();
-            }
+        for (row, what) in drives {
+            chosen.push((what, row.dot(&self.velocities())));
+            rows.push(row);
         }
-        assert_eq!(left, 0, "enough coordinates");
+        let candidates: Vec<(DVector<f64>, String)> = of_bodies.collect();
+        while rows.len() < 3 * self.bodies.len() {
+            let least = |row: &DVector<f64>| {
+                let with: Vec<DVector<f64>> = rows.iter().chain([row]).cloned().collect();
+                DMatrix::from_columns(&with).singular_values().min()
+            };
+            let best = candidates.iter().max_by(|(one, _), (other, _)| least(one).total_cmp(&least(other)));
+            let (row, what) = best.expect("a body").clone();
+            chosen.push((what, row.dot(&self.velocities())));
+            rows.push(row);
+        }
         chosen
     }
 
