@@ -36,11 +36,11 @@ pub struct InfluenceCoefficients<T: Real = f64> {
     /// do.
     pub shared: Option<SharedLoad<T>>,
     /// The contacts that open in place of pressing another face, where `N < 0` stands for: each with what a unit of
-    /// `y_k` adds in all rows, 1 in its own. There `y_k` is the acceleration of its gap, times the force that a
-    /// unit of it needs,
+    /// `y_k` adds in all rows, 1 or -1 in its own. There `y_k` is the acceleration of its gap, times the force that
+    /// a unit of it takes,
     ///
     /// ```text
-    /// c_k^- = -(dN/dg''_k) / (dN_k/dg''_k),    y_k = (dN_k/dg''_k) g''_k
+    /// c_k^- = -(dN/dg''_k) / |dN_k/dg''_k|,    y_k = |dN_k/dg''_k| g''_k
     /// ```
     pub one_sided: Vec<(usize, DVector<T>)>,
 }
@@ -83,12 +83,12 @@ impl<T: Real> InfluenceCoefficients<T> {
         self.eta.get(side)[(row, contact)] * mu * T::exactly(self.velocity_signs[contact])
     }
 
-    /// The force that a unit of `y_k` adds in a row: by friction, and where the contact opens by the motion of its gap,
-    /// but for its own.
+    /// The force that a unit of `y_k` adds in a row, beside `sigma` in its own: by friction, or where the contact opens by the
+    /// motion of its gap.
     fn added(&self, side: Side, row: usize, contact: usize) -> T {
         let opening = self.one_sided.iter().find(|(opens, _)| *opens == contact && side == Side::Negative);
         match opening {
-            Some(_) if row == contact => T::zero(),
+            Some((_, opening)) if row == contact => opening[row] - T::one(),
             Some((_, opening)) => opening[row],
             None => self.friction(side, row, contact),
         }

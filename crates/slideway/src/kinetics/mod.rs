@@ -53,12 +53,13 @@ pub enum Reaction {
     Couple(JointId),
 }
 
-/// What the acceleration of the gap of a contact that lifts off does, per unit of the force that it needs there.
+/// What the acceleration of the gap of a contact that lifts off does, per unit of the force that it takes there. Drives that
+/// act elsewhere than they move may reverse this force.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Opening<T = f64> {
     /// The contact.
     pub(crate) contact: usize,
-    /// What is added to all unknowns; 1 to its own normal force.
+    /// What is added to all unknowns; 1 or -1 to its own normal force.
     pub(crate) answer: DVector<T>,
     /// The acceleration itself (m/s^2 per N).
     pub(crate) acceleration: T,
@@ -163,9 +164,11 @@ impl Layout {
     /// The openings of the contacts that may lift off, from what a unit acceleration of the gap of each adds to all unknowns.
     pub(crate) fn openings<T: Real>(&self, answers: Vec<DVector<T>>) -> Vec<Opening<T>> {
         let of_contact = |(contact, answer): (&ContactId, DVector<T>)| {
-            let own = answer[self.reaction(Reaction::Normal(*contact))?];
-            let answer = answer.map(|value| value / own);
-            Some(Opening { contact: contact.index(), acceleration: T::one() / own, answer })
+            let at = self.reaction(Reaction::Normal(*contact))?;
+            let (size, sign) = (answer[at].abs(), answer[at].sign_value());
+            let mut answer = answer.map(|value| value / size);
+            answer[at] = sign;
+            Some(Opening { contact: contact.index(), acceleration: T::one() / size, answer })
         };
         self.one_sided.iter().zip(answers).filter_map(of_contact).collect()
     }

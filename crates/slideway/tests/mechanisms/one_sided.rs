@@ -124,7 +124,8 @@ fn assert_states(report: &SolveReport, system: &System, states: &[State], tolera
             let verdict = solution.attainability.verdict;
             assert!(matches!(verdict, Verdict::Unattainable | Verdict::Undecided), "{name}: {verdict:?}");
         }
-        assert!(solution.attainability.separates.is_none(), "{name}");
+        let may_open = system.contacts.iter().any(|contact| contact.opens());
+        assert!(!may_open || solution.attainability.separates.is_none(), "{name}");
     }
 }
 
@@ -152,13 +153,15 @@ proptest! {
         numbers in vec(-1.0..1.0_f64, 97),
         two in any::<bool>(),
         hinged in any::<bool>(),
+        driven in any::<bool>(),
         more in 0..3_usize,
     ) {
         let (bodies, contacts) = if two { (2, 2 + more) } else { (1, 1 + more.min(1)) };
-        let Some(system) = random(&numbers, bodies, contacts, hinged) else { return Ok(()) };
-        let rows = system.joint_rows();
+        let Some(system) = random(&numbers, bodies, contacts, [hinged, driven]) else { return Ok(()) };
+        let rows = system.rows_with_drives();
         let values = nalgebra::DMatrix::from_columns(&rows).singular_values();
-        prop_assume!(rows.len() < 3 * bodies && values.min() > 0.05 * values.max());
+        prop_assume!(system.joint_rows().len() < 3 * bodies && rows.len() <= 3 * bodies);
+        prop_assume!(values.min() > 0.05 * values.max());
         prop_assume!(system.contacts.iter().all(|contact| system.sliding_velocity(contact).abs() > 1e-3));
         let states = system.states();
         prop_assume!(states.is_some());
@@ -305,7 +308,7 @@ fn two_corners_are_a_block() {
 #[case(true)]
 fn sweeps_have_the_states_of_solve(#[case] attainability: bool) {
     let model = rod(&[]);
-    let axes = ["mu=0..2:7", "turning=0..10:5"].map(|axis| axis.parse().unwrap());
+    let axes = ["mu=0..2.1:7", "turning=0..10:5"].map(|axis| axis.parse().unwrap());
     let sweep = Sweep::new(&model, &SweepOptions::grid(axes).attainability(attainability)).unwrap();
     let mut state = sweep.start();
     let mut all: Vec<Rows> = Vec::new();
@@ -347,7 +350,7 @@ fn maps_and_curves_know_them() {
     let axes = ["mu=0..2", "turning=0..10"].map(|axis| axis.parse().unwrap());
     let [mu, turning] = axes;
     let map = map(&model, &MapOptions::new(mu, turning).size(20, 20)).unwrap();
-    assert_eq!(map.classes.len(), 4, "closed, open, both, neither: {:?}", map.classes);
+    assert_eq!(map.classes.len(), 3, "none, one, two: {:?}", map.classes);
     let options = LimitsOptions::new("mu=0..2".parse().unwrap());
     let (_, curves) = limits_with_curves(&model, &options, Quantity::NormalForce).unwrap();
     let verdict = |pattern: usize| curves.forwards[pattern].points.iter().map(|point| point.verdict);

@@ -168,6 +168,12 @@ impl System {
         self.hinges.iter().flat_map(hinge).chain(contacts).collect()
     }
 
+    /// The rows of hinges, closed contacts and drives.
+    pub(crate) fn rows_with_drives(&self) -> Vec<DVector<f64>> {
+        let drives = self.drives.iter().map(|drive| self.place(&drive.body, drive.at, drive.direction.into()));
+        self.joint_rows().into_iter().chain(drives).collect()
+    }
+
     /// Coordinates that determine the motion, with their rates: those of the drives first, then components of the motion of
     /// bodies.
     fn coordinates(&self) -> Vec<(String, f64)> {
@@ -401,8 +407,14 @@ fn amax(values: &[f64]) -> f64 {
     values.iter().map(|value| value.abs()).fold(0.0, f64::max)
 }
 
-/// A random system from plain numbers between -1 and 1: one or two bodies, with so many contacts, and perhaps a hinge.
-pub(crate) fn random(numbers: &[f64], bodies: usize, contacts: usize, hinged: bool) -> Option<System> {
+/// A random system from plain numbers between -1 and 1: one or two bodies, with so many contacts, and perhaps a hinge or
+/// a drive that acts elsewhere than it moves.
+pub(crate) fn random(
+    numbers: &[f64],
+    bodies: usize,
+    contacts: usize,
+    [hinged, driven]: [bool; 2],
+) -> Option<System> {
     let mut numbers = numbers.iter().copied().cycle();
     let mut any = |size: f64| size * numbers.next().unwrap_or_default();
     let names: Vec<String> = (0..bodies).map(|body| format!("body_{body}")).collect();
@@ -447,7 +459,16 @@ pub(crate) fn random(numbers: &[f64], bodies: usize, contacts: usize, hinged: bo
     });
     let forces = forces.collect();
     let gravity = [0.0, -9.81];
-    let system = System { gravity, bodies, hinges, contacts, forces, drives: Vec::new() };
+    let drive = Drive {
+        body: names[0].clone(),
+        at: [any(1.0), any(1.0)],
+        direction: if any(1.0) > 0.0 { [1.0, 0.0] } else { [0.0, -1.0] },
+        acceleration: any(3.0),
+        force_at: [any(1.0), any(1.0)],
+        force_along: [1.2 + any(1.0), any(1.0)],
+    };
+    let drives = if driven { vec![drive] } else { Vec::new() };
+    let system = System { gravity, bodies, hinges, contacts, forces, drives };
     let rates: Vec<f64> = (0..3 * names.len()).map(|_| any(1.5)).collect();
     system.with_rates(rates.into_iter())
 }
