@@ -35,7 +35,8 @@ mod load;
 mod quantity;
 
 pub use joint::{
-    BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, HingeBuilder, SingleSlider, SliderBuilder, SliderHandle,
+    BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, HingeBuilder, SingleSlider, SliderBuilder,
+    SliderHandle,
 };
 pub use load::{DriveBuilder, ForceBuilder, LoadBuilder};
 pub use quantity::Quantity;

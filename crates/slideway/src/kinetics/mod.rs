@@ -263,7 +263,9 @@ impl KineticEquations {
     fn check_open(&self, mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
         let contacts: Vec<usize> = self.layout.one_sided.iter().map(|contact| contact.index()).collect();
         let Some(first) = contacts.first() else { return Ok(()) };
-        let Err(faults) = Self::new(&mechanism.without_contacts(&contacts), configuration) else { return Ok(()) };
+        let Err(faults) = Self::new(&mechanism.without_contacts(&contacts), configuration) else {
+            return Ok(());
+        };
         let without_inertia = faults.sorted().into_iter().find_map(|fault| match &fault.kind {
             FaultKind::MotionWithoutInertia { motion } => Some(motion.clone()),
             _ => None,

@@ -224,7 +224,12 @@ impl<T: Real> Evaluation<'_, T> {
     }
 
     /// The displacements between which the whole length of a block is on a face with ends.
-    fn face(&self, slider: &model::Slider, (at, tangent): (Vector2<T>, Vector2<T>), length: T) -> Option<[T; 2]> {
+    fn face(
+        &self,
+        slider: &model::Slider,
+        (at, tangent): (Vector2<T>, Vector2<T>),
+        length: T,
+    ) -> Option<[T; 2]> {
         let Along::Points(ends) = &slider.along else { return None };
         let [from, to] = ends.each_ref().map(|end| (self.vector(end.position) - at).dot(&tangent));
         let half = length / T::exactly(2.0);

@@ -57,7 +57,8 @@ impl<T: Real> Mechanism<T> {
     /// # Errors
     /// A fault that names them.
     pub(crate) fn check_one_sided(&self) -> Result<(), Faults> {
-        let shares: Vec<ContactId> = self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
+        let shares: Vec<ContactId> =
+            self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
         self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts })?;
         if self.friction_circles.iter().any(|circle| circle.radius.upper() > 0.0) {
             self.check_no_one_sided("friction in hinges")?;

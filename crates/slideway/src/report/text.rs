@@ -549,9 +549,10 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
         row.extend(has_deflection.then(|| {
             contact.deflection.map_or(String::new(), |value| length.against(value, greatest_deflection))
         }));
-        row.extend(has_opened.then(|| {
-            contact.gap_acceleration.map_or(String::new(), |value| acceleration.number(value))
-        }));
+        row.extend(
+            has_opened
+                .then(|| contact.gap_acceleration.map_or(String::new(), |value| acceleration.number(value))),
+        );
         row
     };
     (header, contacts.iter().map(row).collect())

@@ -47,13 +47,18 @@ impl Closed {
         let equations = KineticEquations::new(&mechanism, configuration)?;
         let influence = Influence::new(&equations);
         let velocity_signs = &data.velocity_signs.select_rows(&kept);
-        let problem = ProblemData { mechanism: &mechanism, influence: &influence, velocity_signs }.problem()?;
+        let problem =
+            ProblemData { mechanism: &mechanism, influence: &influence, velocity_signs }.problem()?;
         Ok(Self { mechanism, equations, problem, kept })
     }
 
     /// The verdict on the mode with these states of all contacts. What no contact holds follows its loads.
     pub(crate) fn verdict_on(&self, states: &[ContactState]) -> Verdict {
-        if self.kept.is_empty() { Verdict::Attainable } else { self.guides().verdict_on(&self.states(states)) }
+        if self.kept.is_empty() {
+            Verdict::Attainable
+        } else {
+            self.guides().verdict_on(&self.states(states))
+        }
     }
 
     /// Its guides, slightly elastic.

@@ -55,19 +55,14 @@ struct Expected {
 impl Expected {
     /// With its forces in the order of the contacts of a system.
     fn state(&self, system: &System) -> State {
-        let (mut loose, mut bilateral, mut gaps) = (self.normal.iter(), self.bilateral.iter(), self.gap.iter());
+        let (mut loose, mut bilateral, mut gaps) =
+            (self.normal.iter(), self.bilateral.iter(), self.gap.iter());
         let (mut normal, mut gap) = (Vec::new(), Vec::new());
         for contact in &system.contacts {
             normal.push(*if contact.opens() { loose.next() } else { bilateral.next() }.unwrap());
             gap.push(if contact.opens() { *gaps.next().unwrap() } else { 0.0 });
         }
-        State {
-            normal,
-            gap,
-            accelerations: self.a.clone(),
-            efforts: self.efforts.clone(),
-            oriented: self.p,
-        }
+        State { normal, gap, accelerations: self.a.clone(), efforts: self.efforts.clone(), oriented: self.p }
     }
 }
 
@@ -95,7 +90,9 @@ fn is(solution: &Solution, system: &System, state: &State, tolerance: f64) -> bo
     near(contacts().map(|contact| contact.normal_force).collect(), &state.normal)
         && near(contacts().map(|contact| contact.gap_acceleration.unwrap_or(0.0)).collect(), &state.gap)
         && near(
-            bodies.flat_map(|body| [body.acceleration[0], body.acceleration[1], body.angular_acceleration]).collect(),
+            bodies
+                .flat_map(|body| [body.acceleration[0], body.acceleration[1], body.angular_acceleration])
+                .collect(),
             &state.accelerations,
         )
         && near(solution.drives.iter().map(|drive| drive.effort).collect(), &state.efforts)
@@ -212,7 +209,10 @@ fn a_rod_that_turns_fast_opens_or_stays_as_a_threshold() {
     assert_close(opens.oriented_determinant, 1.0, 1.0, 1e-12);
     assert!(closed.oriented_determinant < 0.0);
     let json = serde_json::to_value(&report).unwrap();
-    assert!(json["solutions"][0]["contacts"][0].get("gap_acceleration").is_some() ^ (report.solutions[0].pattern == "+"));
+    assert!(
+        json["solutions"][0]["contacts"][0].get("gap_acceleration").is_some()
+            ^ (report.solutions[0].pattern == "+")
+    );
     assert!(report.csv().contains("gap_acceleration"));
 }
 
@@ -288,7 +288,12 @@ fn two_corners_are_a_block() {
         )
     };
     let block = BOX.find("[joints.base]").unwrap()..BOX.find("[coordinates.x]").unwrap();
-    let corners = [BOX[..block.start].to_owned(), corner("front", ""), corner("rear", "-"), BOX[block.end..].replace("\"base\"", "\"front\"")];
+    let corners = [
+        BOX[..block.start].to_owned(),
+        corner("front", ""),
+        corner("rear", "-"),
+        BOX[block.end..].replace("\"base\"", "\"front\""),
+    ];
     let corners = Model::parse(&corners.concat()).unwrap();
     for mu in ["0.3", "0.6"] {
         let (one, other) = (on_incline(&[("mu", mu)]), report_with(&corners, &parameters(&[("mu", mu)])));
@@ -322,8 +327,7 @@ fn sweeps_have_the_states_of_solve(#[case] attainability: bool) {
     let mut patterns = Vec::new();
     for (rows, row) in all.iter().flat_map(|rows| (0..rows.len()).map(move |row| (rows, row))) {
         let numbers = rows.numbers(row);
-        let settings =
-            Settings::default().parameter("mu", numbers[0]).parameter("turning", numbers[1]);
+        let settings = Settings::default().parameter("mu", numbers[0]).parameter("turning", numbers[1]);
         let report = report_with(&model, &settings);
         assert_eq!(rows.heads[row].solutions as usize, report.solutions.len());
         let pattern = String::from_utf8(rows.pattern(row).to_vec()).unwrap();
@@ -416,7 +420,10 @@ fn what_would_lift_off_without_mass_is_refused() {
     );
     let drive = "[drives.pull]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
     let kind = fault(&(text + drive));
-    assert!(matches!(&kind, FaultKind::LiftsWithoutInertia { contacts, .. } if contacts.len() == 2), "{kind}");
+    assert!(
+        matches!(&kind, FaultKind::LiftsWithoutInertia { contacts, .. } if contacts.len() == 2),
+        "{kind}"
+    );
 }
 
 #[test]
@@ -432,13 +439,22 @@ fn faces_are_where_their_blocks_are() {
     );
     assert!(matches!(fault(&face("[\"from\", \"C\"]")), FaultKind::OffFace { .. }));
     // Its front corner is beyond the end.
-    let short = face("[\"from\", \"to\"]").replace("to = [\"1 m*cos(slope)\", \"1 m*sin(slope)\"]", "to = [\"50 mm*cos(slope)\", \"50 mm*sin(slope)\"]");
+    let short = face("[\"from\", \"to\"]").replace(
+        "to = [\"1 m*cos(slope)\", \"1 m*sin(slope)\"]",
+        "to = [\"50 mm*cos(slope)\", \"50 mm*sin(slope)\"]",
+    );
     let faults = try_report_on(&short).unwrap_err();
-    assert!(faults.sorted().iter().any(|fault| matches!(fault.kind, FaultKind::TravelExceeded { .. })), "{faults}");
+    assert!(
+        faults.sorted().iter().any(|fault| matches!(fault.kind, FaultKind::TravelExceeded { .. })),
+        "{faults}"
+    );
     let both = BOX.replace("along = \"slope\"", "along = \"slope\"\nface = [\"from\", \"to\"]");
     assert!(matches!(fault(&both), FaultKind::Both { .. }));
     assert!(matches!(fault(&BOX.replace("along = \"slope\"\n", "")), FaultKind::NoneOf { .. }));
-    assert!(matches!(fault(&BOX.replace("mu = \"mu\"", "mu = \"mu\"\npreload = \"1 N\"")), FaultKind::UnknownKey { .. }));
+    assert!(matches!(
+        fault(&BOX.replace("mu = \"mu\"", "mu = \"mu\"\npreload = \"1 N\"")),
+        FaultKind::UnknownKey { .. }
+    ));
 }
 
 /// The builder writes the same model.
@@ -495,5 +511,10 @@ fn without_friction_contacts_lift_off_too() {
     let solution = only(&report);
     assert_eq!(solution.pattern, "--");
     assert_close(solution.drives[0].effort, expected, 1.0, 1e-9);
-    assert_close(gap(solution, "base.front"), expected * 80_f64.to_radians().sin() / 2.0 - GRAVITY, 1.0, 1e-9);
+    assert_close(
+        gap(solution, "base.front"),
+        expected * 80_f64.to_radians().sin() / 2.0 - GRAVITY,
+        1.0,
+        1e-9,
+    );
 }

@@ -126,9 +126,8 @@ impl System {
 
     /// What the velocities add to its acceleration: -omega^2 r along the axis.
     fn centripetal(&self, body: &str, at: [f64; 2], axis: Vector) -> f64 {
-        self.body(body).map_or(0.0, |body| {
-            -self.bodies[body].velocity[2].powi(2) * self.arm(body, at).dot(&axis)
-        })
+        self.body(body)
+            .map_or(0.0, |body| -self.bodies[body].velocity[2].powi(2) * self.arm(body, at).dot(&axis))
     }
 
     fn spin(&self, body: &str) -> f64 {
@@ -170,7 +169,8 @@ impl System {
 
     /// The rows of hinges, closed contacts and drives.
     pub(crate) fn rows_with_drives(&self) -> Vec<DVector<f64>> {
-        let drives = self.drives.iter().map(|drive| self.place(&drive.body, drive.at, drive.direction.into()));
+        let drives =
+            self.drives.iter().map(|drive| self.place(&drive.body, drive.at, drive.direction.into()));
         self.joint_rows().into_iter().chain(drives).collect()
     }
 
@@ -230,7 +230,10 @@ impl System {
             points.push((drive.body.clone(), format!("effort_{index}"), drive.force_at));
         }
         for (index, hinge) in self.hinges.iter().enumerate() {
-            hinge.between.iter().for_each(|body| points.push((body.clone(), format!("hinge_{index}"), hinge.at)));
+            hinge
+                .between
+                .iter()
+                .for_each(|body| points.push((body.clone(), format!("hinge_{index}"), hinge.at)));
         }
         let mut written: Vec<&str> = Vec::new();
         for (_, name, at) in &points {
@@ -335,7 +338,8 @@ impl System {
         }
         for (k, contact) in self.contacts.iter().enumerate() {
             let at = bodies + hinges + k;
-            let (normal, sign) = (self.relative(contact, contact.normal()), self.sliding_velocity(contact).signum());
+            let (normal, sign) =
+                (self.relative(contact, contact.normal()), self.sliding_velocity(contact).signum());
             let friction = self.relative(contact, contact.tangent());
             let mu = if rough { contact.mu } else { 0.0 };
             let force = &normal - friction * (mu * sign * sides[k]);
@@ -349,7 +353,8 @@ impl System {
         }
         for (index, drive) in self.drives.iter().enumerate() {
             let at = bodies + hinges + contacts + index;
-            let [direction, along] = [drive.direction, drive.force_along].map(|axis| Vector::from(axis).normalize());
+            let [direction, along] =
+                [drive.direction, drive.force_along].map(|axis| Vector::from(axis).normalize());
             let effort = self.place(&drive.body, drive.force_at, along);
             matrix.view_mut((0, at), (bodies, 1)).copy_from(&-effort);
             let row = self.place(&drive.body, drive.at, direction);
