@@ -2,7 +2,7 @@
 //! states in descriptor form, other questions, and what is refused.
 
 use crate::answers::{assert_close, contact, mode, only, parameters, report_on, report_with, try_report_on};
-use crate::one_sided_systems::{State, System, random};
+use crate::one_sided_systems::{Contact, State, System, random};
 use crate::random_mechanisms::cases;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -12,7 +12,7 @@ use slideway::check::check;
 use slideway::drawing::Drawing;
 use slideway::drive::{DriveOptions, drive};
 use slideway::fault::{FaultKind, Faults};
-use slideway::ids::Frame;
+use slideway::ids::{ContactId, Frame};
 use slideway::limits::{LimitsOptions, Quantity, limits, limits_with_curves};
 use slideway::map::{MapOptions, map};
 use slideway::model::{Model, Settings};
@@ -121,7 +121,7 @@ fn assert_states(report: &SolveReport, system: &System, states: &[State], tolera
             let verdict = solution.attainability.verdict;
             assert!(matches!(verdict, Verdict::Unattainable | Verdict::Undecided), "{name}: {verdict:?}");
         }
-        let may_open = system.contacts.iter().any(|contact| contact.opens());
+        let may_open = system.contacts.iter().any(Contact::opens);
         assert!(!may_open || solution.attainability.separates.is_none(), "{name}");
     }
 }
@@ -465,7 +465,7 @@ fn a_drawing_in_code_has_them() {
     let body = drawing.body("box").mass(1.0).inertia((0.04 + 0.16) / 12.0).centre([0.0, 0.2]).id();
     let base = drawing.block_on_face("base", body, Frame::Ground).at([0.0, 0.0]).length(0.2).mu(0.6).id();
     let corner = drawing.corner_on_face("corner", body, Frame::Ground).at([0.0, 0.4]).mu(0.0).id();
-    assert_eq!([base.front(), base.rear(), corner.contact()].map(|contact| contact.index()), [0, 1, 2]);
+    assert_eq!([base.front(), base.rear(), corner.contact()].map(ContactId::index), [0, 1, 2]);
     assert!(drawing.to_toml().contains("type = \"corner_on_face\""));
     let mut drawing = Drawing::new();
     drawing.gravity(GRAVITY);

@@ -59,8 +59,8 @@ pub(crate) struct Force {
     pub(crate) body: String,
     #[serde(default)]
     pub(crate) at: [f64; 2],
-    #[serde(default)]
-    pub(crate) force: [f64; 2],
+    #[serde(rename = "force", default)]
+    pub(crate) components: [f64; 2],
     #[serde(default)]
     pub(crate) couple: f64,
 }
@@ -264,10 +264,10 @@ impl System {
             )
             .unwrap();
         }
-        for (index, Force { body, force, couple, .. }) in self.forces.iter().enumerate() {
+        for (index, Force { body, components, couple, .. }) in self.forces.iter().enumerate() {
             writeln!(
                 text,
-                "[loads.force_{index}]\ntype = \"force\"\nat = \"{body}.force_{index}\"\ncomponents = {force:?}\n\
+                "[loads.force_{index}]\ntype = \"force\"\nat = \"{body}.force_{index}\"\ncomponents = {components:?}\n\
                  [loads.couple_{index}]\ntype = \"torque\"\nbody = \"{body}\"\nmoment = {couple:?}"
             )
             .unwrap();
@@ -320,7 +320,7 @@ impl System {
             (0..2).for_each(|axis| right[3 * index + axis] = body.m * self.gravity[axis]);
         }
         for force in &self.forces {
-            let mut wrench = self.place(&force.body, force.at, Vector::from(force.force));
+            let mut wrench = self.place(&force.body, force.at, Vector::from(force.components));
             if let Some(body) = self.body(&force.body) {
                 wrench[3 * body + 2] += force.couple;
             }
@@ -459,7 +459,7 @@ pub(crate) fn random(
     let forces = names.iter().map(|body| Force {
         body: body.clone(),
         at: [any(1.0), any(1.0)],
-        force: [any(20.0), any(20.0)],
+        components: [any(20.0), any(20.0)],
         couple: any(5.0),
     });
     let forces = forces.collect();
