@@ -595,6 +595,9 @@ pub struct Contact {
     /// towards +n (m); within its play where the contact is open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deflection: Option<f64>,
+    /// Of a contact that lifts off, whose `side` is -1: the acceleration of its gap (m/s^2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap_acceleration: Option<f64>,
 }
 
 /// The contact mode of a sliding joint.

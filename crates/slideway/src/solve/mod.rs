@@ -42,6 +42,7 @@ mod trail;
 mod uncertainty;
 mod words;
 
+pub(crate) use attainability::Closed;
 pub(crate) use between_faces::states_between_faces;
 pub use blocks::exact_block_problem;
 pub(crate) use blocks::{BlockState, LastSolution, block_states, check_hinges, never_turning};

@@ -30,6 +30,8 @@ mod limits_properties;
 mod loads;
 mod margins;
 mod no_sliding;
+mod one_sided;
+mod one_sided_systems;
 mod positions;
 mod preload_gap;
 mod press_fits;
