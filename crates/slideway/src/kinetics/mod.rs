@@ -34,7 +34,7 @@ use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
 use system::{Factorization, Singular, Unfactored};
 pub(crate) use system::{equilibration, scaled};
@@ -430,6 +430,17 @@ impl<T: Real> Assembled<T> {
     /// Loads without a value or direction.
     pub(crate) fn new(mechanism: &Mechanism<T>, configuration: &Configuration<T>) -> Result<Self, Faults> {
         mechanism.check_one_sided()?;
+        Self::at_rest(mechanism, configuration)
+    }
+
+    /// The same where contacts that may lift off may carry each other, whose forces at rest are ranges.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn at_rest(
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+    ) -> Result<Self, Faults> {
         let layout = Layout::of(mechanism);
         let contacts: Vec<ContactGeometry<T>> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
@@ -446,6 +457,19 @@ impl<T: Real> Assembled<T> {
         let couples =
             mechanism.friction_circles.iter().map(|circle| builder.friction_couple(circle.joint)).collect();
         Ok(Self { layout, contacts, applied, matrix, load, friction, couples, coordinate_rows, cut_rows })
+    }
+
+    /// The row of a contact: the acceleration of its gap is this row times all unknowns, less its right-hand side. The row of
+    /// one that is cut, too.
+    pub(crate) fn gap(&self, contact: ContactId) -> Option<(RowDVector<T>, T)> {
+        let place = self.layout.reaction(Reaction::Normal(contact))?;
+        let Some(cut) = self.layout.cut.iter().position(|cut| *cut == contact) else {
+            return Some((self.matrix.row(place).into_owned(), self.load[place]));
+        };
+        let row = &self.cut_rows[cut];
+        let mut entries = RowDVector::zeros(self.layout.len());
+        row.entries.iter().for_each(|&(column, value)| entries[column] += value);
+        Some((entries, row.right_hand_side))
     }
 
     /// The rows that give the accelerations of the chosen coordinates, where every velocity is zero.

@@ -57,13 +57,21 @@ impl<T: Real> Mechanism<T> {
     /// # Errors
     /// A fault that names them.
     pub(crate) fn check_one_sided(&self) -> Result<(), Faults> {
-        let shares: Vec<ContactId> =
-            self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
-        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts })?;
+        self.check_one_sided_in_excess()?;
         if self.friction_circles.iter().any(|circle| circle.radius.upper() > 0.0) {
             self.check_no_one_sided("friction in hinges")?;
         }
         Ok(())
+    }
+
+    /// Refuses contacts that may lift off and take part in a self-stress.
+    ///
+    /// # Errors
+    /// A fault that names them.
+    pub(crate) fn check_one_sided_in_excess(&self) -> Result<(), Faults> {
+        let shares: Vec<ContactId> =
+            self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
+        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts })
     }
 
     /// Refuses contacts that may lift off, for what is not known of them.
