@@ -118,6 +118,9 @@ pub struct SolveReport {
     pub state: Vec<CoordinateState>,
     /// The coordinates whose rates the model does not give: they are taken as zero.
     pub rates_not_given: Vec<String>,
+    /// The joints that may lift off and do not slide in the state: each solution says how they start. Absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_rest: Vec<String>,
     /// Time of the state (s).
     pub time: f64,
     /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly

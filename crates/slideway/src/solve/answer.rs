@@ -149,6 +149,7 @@ impl<'a> Answer<'a> {
             model: self.model(),
             state: self.state(),
             rates_not_given: Vec::new(),
+            at_rest: Vec::new(),
             time: self.configuration.time,
             steps_from_drawing: self.configuration.steps_from_drawing(),
             patterns: None,

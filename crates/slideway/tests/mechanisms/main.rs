@@ -32,6 +32,7 @@ mod margins;
 mod no_sliding;
 mod one_sided;
 mod one_sided_rest;
+mod one_sided_resting;
 mod one_sided_systems;
 mod positions;
 mod preload_gap;

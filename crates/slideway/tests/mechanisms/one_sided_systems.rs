@@ -52,6 +52,8 @@ pub(crate) struct Contact {
     pub(crate) at: [f64; 2],
     pub(crate) angle: f64,
     pub(crate) mu: f64,
+    #[serde(default)]
+    pub(crate) mu_static: Option<f64>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -90,21 +92,26 @@ pub(crate) struct State {
 
 impl Contact {
     pub(crate) fn opens(&self) -> bool {
-        self.kind == "sliding"
+        self.kind == "sliding" || self.rests()
     }
 
-    fn tangent(&self) -> Vector {
+    /// Whether it may lift off and does not slide at the start.
+    pub(crate) fn rests(&self) -> bool {
+        self.kind == "resting"
+    }
+
+    pub(crate) fn tangent(&self) -> Vector {
         Vector::new(self.angle.cos(), self.angle.sin())
     }
 
-    fn normal(&self) -> Vector {
+    pub(crate) fn normal(&self) -> Vector {
         let tangent = self.tangent();
         Vector::new(-tangent.y, tangent.x)
     }
 }
 
 impl System {
-    fn body(&self, name: &str) -> Option<usize> {
+    pub(crate) fn body(&self, name: &str) -> Option<usize> {
         self.bodies.iter().position(|body| body.name == name)
     }
 
@@ -113,7 +120,7 @@ impl System {
     }
 
     /// The row by which the velocities of all bodies give that of a place of one of them along an axis.
-    fn place(&self, body: &str, at: [f64; 2], axis: Vector) -> DVector<f64> {
+    pub(crate) fn place(&self, body: &str, at: [f64; 2], axis: Vector) -> DVector<f64> {
         let mut row = DVector::zeros(3 * self.bodies.len());
         if let Some(body) = self.body(body) {
             let arm = self.arm(body, at);
@@ -125,7 +132,7 @@ impl System {
     }
 
     /// What the velocities add to its acceleration: -omega^2 r along the axis.
-    fn centripetal(&self, body: &str, at: [f64; 2], axis: Vector) -> f64 {
+    pub(crate) fn centripetal(&self, body: &str, at: [f64; 2], axis: Vector) -> f64 {
         self.body(body)
             .map_or(0.0, |body| -self.bodies[body].velocity[2].powi(2) * self.arm(body, at).dot(&axis))
     }
@@ -139,7 +146,7 @@ impl System {
     }
 
     /// The row of a relative velocity of block and guide at a contact.
-    fn relative(&self, contact: &Contact, axis: Vector) -> DVector<f64> {
+    pub(crate) fn relative(&self, contact: &Contact, axis: Vector) -> DVector<f64> {
         self.place(&contact.body, contact.at, axis) - self.place(&contact.guide, contact.at, axis)
     }
 
@@ -148,7 +155,7 @@ impl System {
     }
 
     /// What the velocities add to the acceleration of the gap: the centripetal parts, and Coriolis' with the guide.
-    fn gap_of_velocities(&self, contact: &Contact) -> f64 {
+    pub(crate) fn gap_of_velocities(&self, contact: &Contact) -> f64 {
         let normal = contact.normal();
         self.centripetal(&contact.body, contact.at, normal)
             - self.centripetal(&contact.guide, contact.at, normal)
@@ -260,7 +267,8 @@ impl System {
             let kind = if contact.opens() { "corner_on_face" } else { "pin_in_slot" };
             writeln!(
                 text,
-                "[joints.{name}]\ntype = \"{kind}\"\nblock = \"{body}\"\nguide = \"{guide}\"\nat = {at:?}\nalong = {angle:?}\nmu = {mu:?}"
+                "[joints.{name}]\ntype = \"{kind}\"\nblock = \"{body}\"\nguide = \"{guide}\"\nat = {at:?}\nalong = {angle:?}\nmu = {mu:?}\nmu_static = {:?}",
+                contact.mu_static.unwrap_or(*mu)
             )
             .unwrap();
         }
@@ -293,7 +301,9 @@ impl System {
 
     /// With joint rows that the velocities satisfy, where the coordinates have these rates.
     pub(crate) fn with_rates(mut self, rates: impl Iterator<Item = f64>) -> Option<Self> {
-        let rows = self.joint_rows();
+        let still = self.contacts.iter().filter(|contact| contact.rests());
+        let still = still.map(|contact| self.relative(contact, contact.tangent()));
+        let rows: Vec<DVector<f64>> = self.joint_rows().into_iter().chain(still).collect();
         let rates = DVector::from_iterator(3 * self.bodies.len(), rates.take(3 * self.bodies.len()));
         let matrix = DMatrix::from_columns(&rows).transpose();
         // What is left of random velocities in the null space of the rows.
@@ -448,6 +458,7 @@ pub(crate) fn random(
             at: [any(1.5), any(1.5)],
             angle: any(PI),
             mu: 0.8 + any(0.8),
+            mu_static: None,
         }
     };
     let contacts: Vec<Contact> = (0..contacts).map(|k| contact(k, &mut any)).collect();

@@ -23,7 +23,7 @@
 mod circle;
 mod free;
 mod modes;
-mod polyhedron;
+pub(super) mod polyhedron;
 
 use super::answer::{Answer, Tipped, status};
 use super::attainability::not_computed;

@@ -1,0 +1,527 @@
+//! Contacts that may lift off and do not slide at the start (theory, section 12): each joint of them sticks, begins to slide
+//! one way or the other, or lifts off, a block with one corner or with both.
+//!
+//! With all contacts closed the unknowns of the kinetic equations are affine in the forces. For a pattern of states
+//!
+//! ```text
+//! x = x_0 + sum_k z_k x_k + sum_j T_j t_j        z_k: |N_k| where closed, the acceleration of the gap where open
+//! N_k(x) = s_k z_k closed, 0 open                v_j'(x) = 0 of joints that stick
+//! z_k >= 0       |T_j| <= sum_k mu_static_k z_k  of joints that stick       s_j v_j'(x) >= 0 of joints that slip
+//! ```
+//!
+//! is one system of linear equations, and all patterns are tried: four for a corner at rest, ten for a block, two for
+//! each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. The three
+//! absolute values of each contact (U4) would have the block engine prove the list; they leave out neither blocks with two
+//! corners nor static friction only at the price of patterns that no state has, so that the native states come first.
+
+use super::answer::{Answer, Tipped, joint_modes, status};
+use super::attainability::not_computed;
+use super::distinct::distinct;
+use super::friction::friction;
+use super::mode_problem::{Sliding, none_stands, sliding_signs};
+use super::stages::Stages;
+use super::standing::polyhedron::{Extremes, Polyhedron};
+use super::state::{Held, State, pattern, signs};
+use super::words::sliding_in_words;
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{ContactId, JointId};
+use crate::influence::{ContactFriction, Influence};
+use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
+use crate::mechanism::{Contact, JointKind, Mechanism};
+use crate::modes::{Certificate, ContactState};
+use crate::pattern::{Affine, AffineExpression, AffineSet};
+use crate::report::{Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport};
+use nalgebra::{DMatrix, DVector};
+
+/// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
+const TOLERANCE: f64 = 1e-9;
+/// More patterns of states are refused.
+const MOST_PATTERNS: u64 = 100_000;
+
+/// A joint that does not slide at the start.
+struct RestingJoint {
+    joint: JointId,
+    contacts: Vec<usize>,
+    row: SlidingRow,
+}
+
+/// What a joint at rest does that touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Start {
+    Sticks,
+    Slips(f64),
+}
+
+/// What all contacts and all joints at rest do; none of a joint that lifts off as a whole.
+#[derive(Clone)]
+struct Pattern {
+    states: Vec<ContactState>,
+    starts: Vec<Option<Start>>,
+}
+
+/// The joints that may lift off and do not slide at the start, if these are all that do not.
+///
+/// # Errors
+/// Other contacts with friction that do not slide.
+fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<RestingJoint>, Faults> {
+    let signs = sliding_signs(mechanism, configuration);
+    let rests = |k: usize| mechanism.contacts[k].opens && signs[k] == 0.0;
+    let joint = |(index, joint): (usize, &crate::mechanism::Joint)| {
+        let JointKind::Slider(slider) = &joint.kind else { return None };
+        let contacts: Vec<usize> = slider.contacts.iter().map(|contact| contact.index()).collect();
+        let row = || SlidingRow::new(mechanism, configuration, slider);
+        contacts.iter().any(|&k| rests(k)).then(|| RestingJoint { joint: JointId(index), row: row(), contacts })
+    };
+    let joints: Vec<RestingJoint> = mechanism.joints.iter().enumerate().filter_map(joint).collect();
+    if joints.is_empty() {
+        return Ok(joints);
+    }
+    let mut others = mechanism.clone();
+    for joint in &joints {
+        joint.contacts.iter().for_each(|&k| (others.contacts[k].mu, others.contacts[k].mu_static) = Default::default());
+    }
+    none_stands(&others, &Sliding::of(&others, configuration)?.standing)?;
+    Ok(joints)
+}
+
+/// Which contacts slide, where those that may lift off need not.
+///
+/// # Errors
+/// Other contacts with friction that do not slide.
+pub(crate) fn sliding_or_resting(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<Sliding, Faults> {
+    if resting(mechanism, configuration)?.is_empty() {
+        return Sliding::of(mechanism, configuration);
+    }
+    Ok(Sliding { signs: sliding_signs(mechanism, configuration), standing: Vec::new() })
+}
+
+/// All states of a mechanism of which contacts that may lift off do not slide at the start; none if there are no such contacts.
+///
+/// # Errors
+/// Other contacts with friction that do not slide, friction in hinges beside them, more patterns of states than are tried.
+pub(super) fn of_mechanism(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<Option<SolveReport>, Faults> {
+    if mechanism.one_sided().next().is_none() {
+        return Ok(None);
+    }
+    let mut mechanism = mechanism.clone();
+    let joints = resting(&mechanism, configuration)?;
+    if joints.is_empty() {
+        return Ok(None);
+    }
+    let equations = KineticEquations::new(&mechanism, configuration)?;
+    configuration.put_friction(&mut mechanism)?;
+    let influences = equations.influences();
+    let stages = Stages {
+        velocity_signs: sliding_signs(&mechanism, configuration),
+        accuracy: influences.accuracy(),
+        influence: Influence::of(influences),
+        mechanism,
+        configuration: configuration.clone(),
+        standing: Vec::new(),
+    };
+    Resting { answer: Answer::determinate(&stages, &equations), stages: &stages, joints }.report().map(Some)
+}
+
+/// A mechanism of which some joints are at rest.
+struct Resting<'a> {
+    answer: Answer<'a>,
+    stages: &'a Stages,
+    joints: Vec<RestingJoint>,
+}
+
+/// The equations of a pattern, and its inequalities as functions of their unknowns: of the contacts, then of the friction of the
+/// joints that stick.
+struct System {
+    pattern: Pattern,
+    base: DVector<f64>,
+    columns: Vec<DVector<f64>>,
+    /// For each unknown friction, its joint.
+    sticking: Vec<usize>,
+}
+
+/// A point of what a pattern leaves.
+struct Point {
+    pattern: Pattern,
+    normal_force: DVector<f64>,
+    held: Vec<Held>,
+    signs: Vec<i8>,
+    oriented: f64,
+}
+
+impl Resting<'_> {
+    fn report(&self) -> Result<SolveReport, Faults> {
+        let all = self.patterns()?;
+        let open = vec![format!("the states of {}, at rest at the start, are computed in floating point", self.names())];
+        let (mut solutions, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
+        let nodes = all.len() as u64;
+        for pattern in all {
+            let system = self.system(pattern);
+            let Some(set) = self.equations(&system) else { continue };
+            if set.dimension() == 0 {
+                let unknowns = set.particular() * self.force();
+                if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
+                    solutions.extend(self.solution(&point, &mut tipped));
+                }
+            } else {
+                continua.extend(self.continuum(&system, &set));
+            }
+        }
+        let solutions = distinct(solutions, &[]);
+        Ok(SolveReport {
+            status: status(false, solutions.len(), 0, continua.len()),
+            complete: Proof::NotProven,
+            count: solutions.len().to_string(),
+            strategy: "every state of the contacts at rest".to_owned(),
+            nodes,
+            undetermined: self.answer.undetermined(&continua),
+            at_rest: self.joints.iter().map(|joint| self.name(joint).to_owned()).collect(),
+            solutions,
+            continua,
+            rejected: tipped.rejected,
+            ..self.answer.report_without_solutions(open)
+        })
+    }
+
+    fn name(&self, joint: &RestingJoint) -> &str {
+        &self.stages.mechanism.joints[joint.joint.index()].name
+    }
+
+    fn names(&self) -> String {
+        self.joints.iter().map(|joint| self.name(joint)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// All patterns of states.
+    ///
+    /// # Errors
+    /// More than are tried.
+    fn patterns(&self) -> Result<Vec<Pattern>, Faults> {
+        use ContactState::{Negative, Positive};
+        let contacts = self.stages.mechanism.contacts.len();
+        let at_rest: Vec<usize> = self.joints.iter().flat_map(|joint| joint.contacts.clone()).collect();
+        let of_joint = |joint: &RestingJoint| 3 * ((1_u64 << joint.contacts.len()) - 1) + 1;
+        let sliding = u32::try_from(contacts - at_rest.len()).ok().and_then(|count| 2_u64.checked_pow(count));
+        let states = self.joints.iter().map(of_joint).fold(sliding.unwrap_or(u64::MAX), u64::saturating_mul);
+        if states > MOST_PATTERNS {
+            return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_PATTERNS }).into());
+        }
+        let first = Pattern { states: vec![Positive; contacts], starts: Vec::new() };
+        let mut all = vec![first];
+        for k in (0..contacts).filter(|k| !at_rest.contains(k)) {
+            all = with_state(all, k, &[Positive, Negative]);
+        }
+        for joint in &self.joints {
+            let mut next = Vec::new();
+            for pattern in joint.contacts.iter().fold(all, |all, &k| with_state(all, k, &[Positive, Negative])) {
+                let touches = joint.contacts.iter().any(|&k| pattern.states[k] == Positive);
+                let starts: &[Option<Start>] = if touches {
+                    &[Some(Start::Sticks), Some(Start::Slips(1.0)), Some(Start::Slips(-1.0))]
+                } else {
+                    &[None]
+                };
+                next.extend(starts.iter().map(|start| {
+                    let mut pattern = pattern.clone();
+                    pattern.starts.push(*start);
+                    pattern
+                }));
+            }
+            all = next;
+        }
+        Ok(all)
+    }
+
+    /// The unknowns of the kinetic equations without the forces of a pattern, and what a unit of each adds.
+    fn system(&self, pattern: Pattern) -> System {
+        let Stages { mechanism, influence, velocity_signs, .. } = self.stages;
+        let mut signs = velocity_signs.clone();
+        for (joint, start) in self.joints.iter().zip(&pattern.starts) {
+            let sign = if let Some(Start::Slips(sign)) = start { *sign } else { 0.0 };
+            joint.contacts.iter().for_each(|&k| signs[k] = sign);
+        }
+        let contacts = pattern.states.len();
+        let shares = vec![None; contacts];
+        let unknowns = |forces: &DVector<f64>| {
+            influence.unknowns(&friction(mechanism, &signs, &pattern.states, forces, &shares), forces)
+        };
+        let base = unknowns(&DVector::zeros(contacts));
+        let mut columns: Vec<DVector<f64>> = (0..contacts)
+            .map(|k| {
+                let mut forces = DVector::zeros(contacts);
+                forces[k] = pattern.states[k].sign();
+                unknowns(&forces) - &base
+            })
+            .collect();
+        let sticks = |(joint, start): (usize, &Option<Start>)| (*start == Some(Start::Sticks)).then_some(joint);
+        let sticking: Vec<usize> = pattern.starts.iter().enumerate().filter_map(sticks).collect();
+        let of_friction = |joint: &usize| influence.columns[self.joints[*joint].contacts[0]][0].clone();
+        columns.extend(sticking.iter().map(of_friction));
+        System { pattern, base, columns, sticking }
+    }
+
+    /// The equations of a pattern in units of force; none if they contradict each other.
+    fn equations(&self, system: &System) -> Option<AffineSet> {
+        let force = self.force();
+        let matrix = self.matrix(system);
+        let contacts = system.pattern.states.len();
+        let right = DVector::from_fn(matrix.nrows(), |row, _| match row.checked_sub(contacts) {
+            None => -system.base[self.place(row)] / force,
+            Some(stuck) => {
+                let joint = system.sticking[stuck];
+                -self.joints[joint].row.acceleration(&system.base) / self.acceleration(system, joint)
+            }
+        });
+        AffineSet::of(matrix, right)
+    }
+
+    /// Rows of the normal forces, then of what sticks; a column for each unknown.
+    fn matrix(&self, system: &System) -> DMatrix<f64> {
+        let contacts = system.pattern.states.len();
+        let size = system.columns.len();
+        DMatrix::from_fn(size, size, |row, column| match row.checked_sub(contacts) {
+            None => {
+                let of_itself = if row == column && !self.is_open(&system.pattern, row) {
+                    system.pattern.states[row].sign()
+                } else {
+                    0.0
+                };
+                system.columns[column][self.place(row)] - of_itself
+            }
+            Some(stuck) => {
+                let joint = system.sticking[stuck];
+                let change = self.joints[joint].row.change(&system.columns[column]);
+                change * self.force() / self.acceleration(system, joint)
+            }
+        })
+    }
+
+    /// `slack >= 0` of a pattern, as functions of what its equations leave open; in units of force or of the joint's
+    /// acceleration.
+    fn slacks(&self, system: &System, set: &AffineSet) -> Vec<Affine> {
+        let contacts = system.pattern.states.len();
+        let mechanism = &self.stages.mechanism;
+        let mut all: Vec<AffineExpression> =
+            (0..contacts).map(|k| AffineExpression::unknown(k, 1.0)).collect();
+        for (unknown, &joint) in (contacts..).zip(&system.sticking) {
+            let closed = self.joints[joint].contacts.iter().filter(|&&k| !self.is_open(&system.pattern, k));
+            let limit = closed.fold(AffineExpression::default(), |limit, &k| {
+                limit.plus(mechanism.contacts[k].mu_static[0], &AffineExpression::unknown(k, 1.0))
+            });
+            all.extend([1.0, -1.0].map(|sign| limit.clone().plus(sign, &AffineExpression::unknown(unknown, 1.0))));
+        }
+        for (joint, start) in system.pattern.starts.iter().enumerate() {
+            let Some(Start::Slips(sign)) = start else { continue };
+            let unit = self.acceleration(system, joint);
+            let row = &self.joints[joint].row;
+            let at_zero = AffineExpression::constant(sign * row.acceleration(&system.base) / unit);
+            all.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
+                slack.plus(sign * row.change(column) * self.force() / unit, &AffineExpression::unknown(unknown, 1.0))
+            }));
+        }
+        all.iter().map(|slack| set.function(slack)).collect()
+    }
+
+    /// A point at which all inequalities of a pattern hold.
+    fn point(
+        &self,
+        system: &System,
+        unknowns: &DVector<f64>,
+        slacks: &[Affine],
+    ) -> Option<Point> {
+        let size = unknowns.amax().max(self.force()) / self.force();
+        let holds = |slack: &Affine| slack.constant >= -TOLERANCE * size;
+        slacks.iter().all(holds).then(|| self.at(system, unknowns))
+    }
+
+    /// What contacts do with these unknowns. Forces that are rounding are none.
+    fn at(&self, system: &System, unknowns: &DVector<f64>) -> Point {
+        let mechanism = &self.stages.mechanism;
+        let Pattern { states, starts } = &system.pattern;
+        let contacts = states.len();
+        let nothing = TOLERANCE * unknowns.amax().max(self.force());
+        let force = |k: usize| if unknowns[k].abs() <= nothing { 0.0 } else { unknowns[k] };
+        let mut held = Vec::new();
+        for (index, (joint, start)) in self.joints.iter().zip(starts).enumerate() {
+            let closed: Vec<usize> =
+                joint.contacts.iter().copied().filter(|&k| !self.is_open(&system.pattern, k)).collect();
+            let all: f64 = closed.iter().map(|&k| mechanism.contacts[k].mu_static[0] * force(k)).sum();
+            for &k in &closed {
+                let Contact { mu, mu_static, .. } = &mechanism.contacts[k];
+                let friction = match start {
+                    Some(Start::Slips(sign)) => sign * mu[0] * force(k),
+                    Some(Start::Sticks) => {
+                        let unknown = system.sticking.iter().position(|stuck| *stuck == index);
+                        let whole = unknown.map_or(0.0, |unknown| unknowns[contacts + unknown]);
+                        if all > 0.0 { whole * mu_static[0] * force(k) / all } else { 0.0 }
+                    }
+                    None => 0.0,
+                };
+                held.push(Held { contact: k, friction: ContactFriction { positive_face: friction, negative_face: 0.0 } });
+            }
+        }
+        let sign = |(k, sign): (usize, i8)| if force(k) == 0.0 { 0 } else { sign };
+        Point {
+            normal_force: DVector::from_fn(contacts, |k, _| states[k].sign() * force(k)),
+            signs: signs(states).into_iter().enumerate().map(sign).collect(),
+            held,
+            oriented: self.oriented(system),
+            pattern: system.pattern.clone(),
+        }
+    }
+
+    /// The determinant of a pattern over that without friction.
+    fn oriented(&self, system: &System) -> f64 {
+        let mut smooth = self.stages.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|_| 0.0);
+        let stages = Stages { mechanism: smooth, ..self.stages.clone() };
+        let joints = self.joints.iter().map(|one| RestingJoint {
+            joint: one.joint,
+            contacts: one.contacts.clone(),
+            row: one.row.clone(),
+        });
+        let without = Resting {
+            answer: Answer::determinate(&stages, self.answer.equations),
+            stages: &stages,
+            joints: joints.collect(),
+        };
+        let smooth = without.system(system.pattern.clone());
+        self.matrix(system).determinant() / without.matrix(&smooth).determinant()
+            * (self.scale(system) / without.scale(&smooth))
+    }
+
+    /// By what the rows of a matrix are divided.
+    fn scale(&self, system: &System) -> f64 {
+        system.sticking.iter().map(|&joint| self.acceleration(system, joint)).product()
+    }
+
+    fn solution(&self, point: &Point, tipped: &mut Tipped) -> Option<Solution> {
+        let mut kept = self.answer.kept(&point.state(), tipped)?;
+        kept.attainability = not_computed("contacts are at rest at the start");
+        kept.joints = self.words(point);
+        Some(kept)
+    }
+
+    /// What each sliding joint does, those at rest with how they start.
+    fn words(&self, point: &Point) -> Vec<JointMode> {
+        let Stages { mechanism, configuration, .. } = self.stages;
+        let mut modes = joint_modes(mechanism, configuration, &point.signs);
+        for (joint, start) in self.joints.iter().zip(&point.pattern.starts) {
+            let name = self.name(joint);
+            let Some(mode) = modes.iter_mut().find(|mode| mode.name == name) else { continue };
+            let starts = match (start, mechanism.slider(joint.joint)) {
+                (Some(Start::Slips(sign)), Some(slider)) => {
+                    let sign = if *sign < 0.0 { -1 } else { 1 };
+                    sliding_in_words(mechanism, configuration, slider, sign)
+                }
+                (Some(Start::Sticks), _) => "sticks".to_owned(),
+                _ => continue,
+            };
+            mode.mode = format!("{}, {starts}", mode.mode);
+        }
+        modes
+    }
+
+    /// What the inequalities of a pattern leave of forces that its equations leave open.
+    fn continuum(&self, system: &System, set: &AffineSet) -> Option<Continuum> {
+        let slacks = self.slacks(system, set);
+        let row = |slack: &Affine| {
+            DVector::from_iterator(
+                1 + slack.coefficients.len(),
+                std::iter::once(slack.constant).chain(slack.coefficients.iter().copied()),
+            )
+        };
+        let Extremes { corners, growths } = Polyhedron::new(set.dimension(), slacks.iter().map(row)).extremes();
+        let first = corners.first()?;
+        let unknowns = |free: &DVector<f64>| set.at(free) * self.force();
+        let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
+        let all = |free: &DVector<f64>| self.answer.unknowns(&point(free).state());
+        let list = |point: &Point| point.normal_force.iter().map(|force| force + 0.0).collect::<Vec<f64>>();
+        let along = |growth: &DVector<f64>| point(&(first + growth));
+        let growth = |growth: &DVector<f64>| self.answer.growth(&all(first), &all(&(first + growth)), 1.0);
+        let difference = |growth: &DVector<f64>| {
+            let (at, further) = (list(&point(first)), list(&along(growth)));
+            further.iter().zip(&at).map(|(further, at)| further - at).collect()
+        };
+        let held = |k: usize, free: &DVector<f64>| {
+            let point = point(free);
+            point.held.iter().find(|held| held.contact == k).map_or(0.0, |held| held.friction.positive_face + 0.0)
+        };
+        let stuck = system.sticking.iter().flat_map(|&joint| self.joints[joint].contacts.clone());
+        let of_contact = |k: usize| HeldFriction {
+            name: self.stages.mechanism.contacts[k].name.to_string(),
+            unit: "N",
+            at: corners.iter().map(|corner| held(k, corner)).collect(),
+            along: growths.iter().map(|growth| held(k, &(first + growth)) - held(k, first)).collect(),
+        };
+        Some(Continuum {
+            pattern: pattern(&system.pattern.states),
+            vertices: corners.iter().map(|corner| list(&point(corner))).collect(),
+            directions: growths.iter().map(difference).collect(),
+            motion: corners.iter().map(|corner| self.answer.driven_motion(&all(corner))).collect(),
+            motion_along: growths.iter().map(growth).collect(),
+            tipping: Vec::new(),
+            couple: None,
+            held: stuck.map(of_contact).collect(),
+        })
+    }
+
+    fn is_open(&self, pattern: &Pattern, k: usize) -> bool {
+        self.stages.mechanism.contacts[k].opens && pattern.states[k] == ContactState::Negative
+    }
+
+    fn place(&self, k: usize) -> usize {
+        let place = self.stages.influence.layout().reaction(Reaction::Normal(ContactId(k)));
+        place.expect("every contact has a normal force")
+    }
+
+    /// The greatest normal force with all contacts closed and without friction, or 1 N.
+    fn force(&self) -> f64 {
+        let greatest = self.stages.influence.normal_forces().amax();
+        if greatest > 0.0 { greatest } else { 1.0 }
+    }
+
+    /// The greatest acceleration of sliding of a joint that a unit of force causes in a pattern.
+    fn acceleration(&self, system: &System, joint: usize) -> f64 {
+        let row = &self.joints[joint].row;
+        let changes = system.columns.iter().map(|column| row.change(column).abs());
+        let own = row.change(&self.stages.influence.columns[self.joints[joint].contacts[0]][0]).abs();
+        let greatest = changes.fold(own, f64::max) * self.force();
+        if greatest > 0.0 { greatest } else { 1.0 }
+    }
+}
+
+impl Point {
+    fn state(&self) -> State<'_> {
+        let states = &self.pattern.states;
+        let orientation: f64 = states.iter().map(|state| state.sign()).product();
+        State {
+            pattern: states,
+            patterns: vec![pattern(states)],
+            normal_force: &self.normal_force,
+            shares: vec![None; states.len()],
+            signs: self.signs.clone(),
+            on_boundary: self.signs.contains(&0),
+            determinant: self.oriented * orientation,
+            certificate: &Certificate::NotProven,
+            hinges: &[],
+            held: &self.held,
+        }
+    }
+}
+
+/// Each pattern with each of these states of a contact.
+fn with_state(all: Vec<Pattern>, k: usize, states: &[ContactState]) -> Vec<Pattern> {
+    let each = |pattern: Pattern| {
+        states.iter().map(move |state| {
+            let mut pattern = pattern.clone();
+            pattern.states[k] = *state;
+            pattern
+        })
+    };
+    all.into_iter().flat_map(each).collect()
+}
