@@ -10,9 +10,9 @@
 //! ```
 //!
 //! is one system of linear equations, and all patterns are tried: four for a corner at rest, ten for a block, two for
-//! each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. The three
-//! absolute values of each contact (U4) would have the block engine prove the list; they leave out neither blocks with two
-//! corners nor static friction only at the price of patterns that no state has, so that the native states come first.
+//! each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. Three absolute
+//! values for each contact would state the same as a block problem, whose search is proven, with patterns beside that no state
+//! has; the native states also have static friction above kinetic, and what the equations leave open.
 
 use super::answer::{Answer, Tipped, joint_modes, status};
 use super::attainability::not_computed;
@@ -301,12 +301,17 @@ impl Resting<'_> {
     }
 
     /// `slack >= 0` of a pattern, as functions of what its equations leave open; in units of force or of the joint's
-    /// acceleration.
-    fn slacks(&self, system: &System, set: &AffineSet) -> Vec<Affine> {
+    /// acceleration. Those that must not vanish are the first of the pair: what slips or opens without an acceleration sticks or
+    /// touches.
+    fn slacks(&self, system: &System, set: &AffineSet) -> [Vec<Affine>; 2] {
         let contacts = system.pattern.states.len();
         let mechanism = &self.stages.mechanism;
-        let mut all: Vec<AffineExpression> =
-            (0..contacts).map(|k| AffineExpression::unknown(k, 1.0)).collect();
+        let (open, closed): (Vec<usize>, Vec<usize>) =
+            (0..contacts).partition(|&k| self.is_open(&system.pattern, k));
+        let own = |list: Vec<usize>| -> Vec<AffineExpression> {
+            list.into_iter().map(|k| AffineExpression::unknown(k, 1.0)).collect()
+        };
+        let (mut beginning, mut all) = (own(open), own(closed));
         for (unknown, &joint) in (contacts..).zip(&system.sticking) {
             let closed = self.joints[joint].contacts.iter().filter(|&&k| !self.is_open(&system.pattern, k));
             let limit = closed.fold(AffineExpression::default(), |limit, &k| {
@@ -319,11 +324,11 @@ impl Resting<'_> {
             let unit = self.acceleration(system, joint);
             let row = &self.joints[joint].row;
             let at_zero = AffineExpression::constant(sign * row.acceleration(&system.base) / unit);
-            all.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
+            beginning.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
                 slack.plus(sign * row.change(column) * self.force() / unit, &AffineExpression::unknown(unknown, 1.0))
             }));
         }
-        all.iter().map(|slack| set.function(slack)).collect()
+        [beginning, all].map(|slacks| slacks.iter().map(|slack| set.function(slack)).collect())
     }
 
     /// A point at which all inequalities of a pattern hold.
@@ -331,11 +336,12 @@ impl Resting<'_> {
         &self,
         system: &System,
         unknowns: &DVector<f64>,
-        slacks: &[Affine],
+        [beginning, slacks]: &[Vec<Affine>; 2],
     ) -> Option<Point> {
-        let size = unknowns.amax().max(self.force()) / self.force();
-        let holds = |slack: &Affine| slack.constant >= -TOLERANCE * size;
-        slacks.iter().all(holds).then(|| self.at(system, unknowns))
+        let rounding = TOLERANCE * unknowns.amax().max(self.force()) / self.force();
+        let begins = beginning.iter().all(|slack| slack.constant > rounding);
+        let holds = slacks.iter().all(|slack| slack.constant >= -rounding);
+        (begins && holds).then(|| self.at(system, unknowns))
     }
 
     /// What contacts do with these unknowns. Forces that are rounding are none.
@@ -428,14 +434,22 @@ impl Resting<'_> {
 
     /// What the inequalities of a pattern leave of forces that its equations leave open.
     fn continuum(&self, system: &System, set: &AffineSet) -> Option<Continuum> {
-        let slacks = self.slacks(system, set);
+        let [beginning, slacks] = self.slacks(system, set);
         let row = |slack: &Affine| {
             DVector::from_iterator(
                 1 + slack.coefficients.len(),
                 std::iter::once(slack.constant).chain(slack.coefficients.iter().copied()),
             )
         };
-        let Extremes { corners, growths } = Polyhedron::new(set.dimension(), slacks.iter().map(row)).extremes();
+        let Extremes { corners, growths } = Polyhedron::new(set.dimension(), slacks.iter().chain(&beginning).map(row)).extremes();
+        let begins = |slack: &Affine| {
+            let at = corners.iter().map(|corner| slack.at(corner.as_slice()));
+            let along = growths.iter().map(|growth| slack.at(growth.as_slice()) - slack.constant);
+            at.chain(along).any(|value| value > TOLERANCE)
+        };
+        if !beginning.iter().all(begins) {
+            return None;
+        }
         let first = corners.first()?;
         let unknowns = |free: &DVector<f64>| set.at(free) * self.force();
         let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
