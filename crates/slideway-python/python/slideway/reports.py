@@ -2785,7 +2785,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"at_rest": (), "steps_from_drawing": None, "patterns": None, "undetermined": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
+    _absent = {"at_rest": (), "every_load_has_one_state": None, "steps_from_drawing": None, "patterns": None, "undetermined": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2814,6 +2814,9 @@ class SolveReport(_mixins.SolveReport, Report):
     at_rest: tuple[str, ...]
     """The joints that may lift off and do not slide in the state: each solution says how they start. Absent if
     there are none."""
+    every_load_has_one_state: bool | None
+    """Whether every load has exactly one state, where contacts that may lift off rest and nothing slides. Absent
+    elsewhere."""
     time: float
     """Time of the state (s)."""
     steps_from_drawing: int | None

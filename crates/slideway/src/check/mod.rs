@@ -30,9 +30,7 @@ use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{LoadSharing, finite};
-use crate::solve::{
-    Sliding, check_hinges, check_standing, load_sharing, mode_problem, sliding_or_resting,
-};
+use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem, sliding_or_resting};
 use crate::units::Units;
 use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;

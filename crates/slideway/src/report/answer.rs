@@ -49,9 +49,14 @@ impl SolveReport {
         if self.at_rest.is_empty() {
             return None;
         }
+        let unique = if self.every_load_has_one_state == Some(true) {
+            " Every load has exactly one state."
+        } else {
+            ""
+        };
         Some(match (self.status, self.solutions.as_slice()) {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
-            (Status::One, [only]) => format!("It starts in one way. {}.", starts(only)),
+            (Status::One, [only]) => format!("It starts in one way. {}.{unique}", starts(only)),
             (Status::Several, several) => {
                 let ways: Vec<String> = several.iter().map(starts).collect();
                 format!("It can start in {} ways. {}.", several.len(), ways.join(". Or "))
@@ -61,9 +66,7 @@ impl SolveReport {
                     0 => String::new(),
                     more => format!(" {more} more states are determined."),
                 };
-                format!(
-                    "The contacts at rest leave their forces open: `hold` has their ranges.{also}"
-                )
+                format!("The contacts at rest leave their forces open: `hold` has their ranges.{also}")
             }
         })
     }

@@ -121,6 +121,9 @@ pub struct SolveReport {
     /// The joints that may lift off and do not slide in the state: each solution says how they start. Absent if there are none.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub at_rest: Vec<String>,
+    /// Whether every load has exactly one state, where contacts that may lift off rest and nothing slides. Absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every_load_has_one_state: Option<bool>,
     /// Time of the state (s).
     pub time: f64,
     /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly

@@ -150,6 +150,7 @@ impl<'a> Answer<'a> {
             state: self.state(),
             rates_not_given: Vec::new(),
             at_rest: Vec::new(),
+            every_load_has_one_state: None,
             time: self.configuration.time,
             steps_from_drawing: self.configuration.steps_from_drawing(),
             patterns: None,

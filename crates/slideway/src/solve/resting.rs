@@ -71,7 +71,11 @@ fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<R
         let JointKind::Slider(slider) = &joint.kind else { return None };
         let contacts: Vec<usize> = slider.contacts.iter().map(|contact| contact.index()).collect();
         let row = || SlidingRow::new(mechanism, configuration, slider);
-        contacts.iter().any(|&k| rests(k)).then(|| RestingJoint { joint: JointId(index), row: row(), contacts })
+        contacts.iter().any(|&k| rests(k)).then(|| RestingJoint {
+            joint: JointId(index),
+            row: row(),
+            contacts,
+        })
     };
     let joints: Vec<RestingJoint> = mechanism.joints.iter().enumerate().filter_map(joint).collect();
     if joints.is_empty() {
@@ -79,7 +83,10 @@ fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<R
     }
     let mut others = mechanism.clone();
     for joint in &joints {
-        joint.contacts.iter().for_each(|&k| (others.contacts[k].mu, others.contacts[k].mu_static) = Default::default());
+        joint
+            .contacts
+            .iter()
+            .for_each(|&k| (others.contacts[k].mu, others.contacts[k].mu_static) = Default::default());
     }
     none_stands(&others, &Sliding::of(&others, configuration)?.standing)?;
     Ok(joints)
@@ -126,7 +133,10 @@ pub(super) fn of_mechanism(
         configuration: configuration.clone(),
         standing: Vec::new(),
     };
-    Resting { answer: Answer::determinate(&stages, &equations), stages: &stages, joints }.report().map(Some)
+    let mut smooth = stages.mechanism.clone();
+    smooth.multiply_friction_of_contacts(|_| 0.0);
+    let answer = Answer::determinate(&stages, &equations);
+    Resting { answer, stages: &stages, joints, smooth }.report().map(Some)
 }
 
 /// A mechanism of which some joints are at rest.
@@ -134,6 +144,8 @@ struct Resting<'a> {
     answer: Answer<'a>,
     stages: &'a Stages,
     joints: Vec<RestingJoint>,
+    /// The mechanism without friction.
+    smooth: Mechanism,
 }
 
 /// The equations of a pattern, and its inequalities as functions of their unknowns: of the contacts, then of the friction of the
@@ -158,11 +170,14 @@ struct Point {
 impl Resting<'_> {
     fn report(&self) -> Result<SolveReport, Faults> {
         let all = self.patterns()?;
-        let open = vec![format!("the states of {}, at rest at the start, are computed in floating point", self.names())];
+        let open = vec![format!(
+            "the states of {}, at rest at the start, are computed in floating point",
+            self.names()
+        )];
         let (mut solutions, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
-        let nodes = all.len() as u64;
+        let (nodes, every_load_has_one_state) = (all.len() as u64, self.is_unique(&all));
         for pattern in all {
-            let system = self.system(pattern);
+            let system = self.system(pattern, &self.stages.mechanism);
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
                 let unknowns = set.particular() * self.force();
@@ -182,6 +197,7 @@ impl Resting<'_> {
             nodes,
             undetermined: self.answer.undetermined(&continua),
             at_rest: self.joints.iter().map(|joint| self.name(joint).to_owned()).collect(),
+            every_load_has_one_state,
             solutions,
             continua,
             rejected: tipped.rejected,
@@ -218,7 +234,9 @@ impl Resting<'_> {
         }
         for joint in &self.joints {
             let mut next = Vec::new();
-            for pattern in joint.contacts.iter().fold(all, |all, &k| with_state(all, k, &[Positive, Negative])) {
+            for pattern in
+                joint.contacts.iter().fold(all, |all, &k| with_state(all, k, &[Positive, Negative]))
+            {
                 let touches = joint.contacts.iter().any(|&k| pattern.states[k] == Positive);
                 let starts: &[Option<Start>] = if touches {
                     &[Some(Start::Sticks), Some(Start::Slips(1.0)), Some(Start::Slips(-1.0))]
@@ -237,8 +255,8 @@ impl Resting<'_> {
     }
 
     /// The unknowns of the kinetic equations without the forces of a pattern, and what a unit of each adds.
-    fn system(&self, pattern: Pattern) -> System {
-        let Stages { mechanism, influence, velocity_signs, .. } = self.stages;
+    fn system(&self, pattern: Pattern, mechanism: &Mechanism) -> System {
+        let Stages { influence, velocity_signs, .. } = self.stages;
         let mut signs = velocity_signs.clone();
         for (joint, start) in self.joints.iter().zip(&pattern.starts) {
             let sign = if let Some(Start::Slips(sign)) = start { *sign } else { 0.0 };
@@ -257,7 +275,8 @@ impl Resting<'_> {
                 unknowns(&forces) - &base
             })
             .collect();
-        let sticks = |(joint, start): (usize, &Option<Start>)| (*start == Some(Start::Sticks)).then_some(joint);
+        let sticks =
+            |(joint, start): (usize, &Option<Start>)| (*start == Some(Start::Sticks)).then_some(joint);
         let sticking: Vec<usize> = pattern.starts.iter().enumerate().filter_map(sticks).collect();
         let of_friction = |joint: &usize| influence.columns[self.joints[*joint].contacts[0]][0].clone();
         columns.extend(sticking.iter().map(of_friction));
@@ -317,7 +336,9 @@ impl Resting<'_> {
             let limit = closed.fold(AffineExpression::default(), |limit, &k| {
                 limit.plus(mechanism.contacts[k].mu_static[0], &AffineExpression::unknown(k, 1.0))
             });
-            all.extend([1.0, -1.0].map(|sign| limit.clone().plus(sign, &AffineExpression::unknown(unknown, 1.0))));
+            all.extend(
+                [1.0, -1.0].map(|sign| limit.clone().plus(sign, &AffineExpression::unknown(unknown, 1.0))),
+            );
         }
         for (joint, start) in system.pattern.starts.iter().enumerate() {
             let Some(Start::Slips(sign)) = start else { continue };
@@ -325,7 +346,10 @@ impl Resting<'_> {
             let row = &self.joints[joint].row;
             let at_zero = AffineExpression::constant(sign * row.acceleration(&system.base) / unit);
             beginning.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
-                slack.plus(sign * row.change(column) * self.force() / unit, &AffineExpression::unknown(unknown, 1.0))
+                slack.plus(
+                    sign * row.change(column) * self.force() / unit,
+                    &AffineExpression::unknown(unknown, 1.0),
+                )
             }));
         }
         [beginning, all].map(|slacks| slacks.iter().map(|slack| set.function(slack)).collect())
@@ -367,7 +391,10 @@ impl Resting<'_> {
                     }
                     None => 0.0,
                 };
-                held.push(Held { contact: k, friction: ContactFriction { positive_face: friction, negative_face: 0.0 } });
+                held.push(Held {
+                    contact: k,
+                    friction: ContactFriction { positive_face: friction, negative_face: 0.0 },
+                });
             }
         }
         let sign = |(k, sign): (usize, i8)| if force(k) == 0.0 { 0 } else { sign };
@@ -375,29 +402,35 @@ impl Resting<'_> {
             normal_force: DVector::from_fn(contacts, |k, _| states[k].sign() * force(k)),
             signs: signs(states).into_iter().enumerate().map(sign).collect(),
             held,
-            oriented: self.oriented(system),
+            oriented: self.oriented(system).unwrap_or(0.0),
             pattern: system.pattern.clone(),
         }
     }
 
-    /// The determinant of a pattern over that without friction.
-    fn oriented(&self, system: &System) -> f64 {
-        let mut smooth = self.stages.mechanism.clone();
-        smooth.multiply_friction_of_contacts(|_| 0.0);
-        let stages = Stages { mechanism: smooth, ..self.stages.clone() };
-        let joints = self.joints.iter().map(|one| RestingJoint {
-            joint: one.joint,
-            contacts: one.contacts.clone(),
-            row: one.row.clone(),
-        });
-        let without = Resting {
-            answer: Answer::determinate(&stages, self.answer.equations),
-            stages: &stages,
-            joints: joints.collect(),
-        };
-        let smooth = without.system(system.pattern.clone());
-        self.matrix(system).determinant() / without.matrix(&smooth).determinant()
-            * (self.scale(system) / without.scale(&smooth))
+    /// The determinant of a pattern over that without friction; none where the latter vanishes, as rows are dependent.
+    fn oriented(&self, system: &System) -> Option<f64> {
+        let smooth = self.system(system.pattern.clone(), &self.smooth);
+        let (matrix, without) = (self.matrix(system), self.matrix(&smooth));
+        let of_smooth = without.determinant();
+        let size: f64 = without.row_iter().map(|row| row.norm()).product();
+        let factor = self.scale(system) / self.scale(&smooth);
+        (of_smooth.abs() > TOLERANCE * size).then(|| matrix.determinant() / of_smooth * factor)
+    }
+
+    /// Whether every load has exactly one state, where nothing slides and static friction is kinetic friction: the oriented
+    /// determinants of all patterns are positive (Kuhn and Loewen 1987). None where that is no answer.
+    fn is_unique(&self, patterns: &[Pattern]) -> Option<bool> {
+        let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;
+        let slides =
+            |k: usize| self.stages.velocity_signs[k] != 0.0 && self.stages.mechanism.contacts[k].may_hold();
+        let contacts = &self.stages.mechanism.contacts;
+        if !contacts.iter().all(has_one_law) || (0..contacts.len()).any(slides) {
+            return None;
+        }
+        let determinant =
+            |pattern: &Pattern| self.oriented(&self.system(pattern.clone(), &self.stages.mechanism));
+        let all: Option<Vec<f64>> = patterns.iter().map(determinant).collect();
+        Some(all?.iter().all(|determinant| *determinant > 0.0))
     }
 
     /// By what the rows of a matrix are divided.
@@ -441,7 +474,8 @@ impl Resting<'_> {
                 std::iter::once(slack.constant).chain(slack.coefficients.iter().copied()),
             )
         };
-        let Extremes { corners, growths } = Polyhedron::new(set.dimension(), slacks.iter().chain(&beginning).map(row)).extremes();
+        let Extremes { corners, growths } =
+            Polyhedron::new(set.dimension(), slacks.iter().chain(&beginning).map(row)).extremes();
         let begins = |slack: &Affine| {
             let at = corners.iter().map(|corner| slack.at(corner.as_slice()));
             let along = growths.iter().map(|growth| slack.at(growth.as_slice()) - slack.constant);
@@ -463,7 +497,11 @@ impl Resting<'_> {
         };
         let held = |k: usize, free: &DVector<f64>| {
             let point = point(free);
-            point.held.iter().find(|held| held.contact == k).map_or(0.0, |held| held.friction.positive_face + 0.0)
+            point
+                .held
+                .iter()
+                .find(|held| held.contact == k)
+                .map_or(0.0, |held| held.friction.positive_face + 0.0)
         };
         let stuck = system.sticking.iter().flat_map(|&joint| self.joints[joint].contacts.clone());
         let of_contact = |k: usize| HeldFriction {

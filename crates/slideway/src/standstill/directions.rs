@@ -5,9 +5,9 @@
 //! fewer than `3^m` of a closed loop, whose joints move together.
 
 use super::TOLERANCE;
+use super::held_motions;
 use super::setup::Setup;
 use super::state::Pattern;
-use super::held_motions;
 use crate::configuration::null_space;
 use crate::pattern::{Affine, JointPhase, Region};
 use nalgebra::{DMatrix, RowDVector};

@@ -376,8 +376,7 @@ fn verdict(holds: bool, moves: bool, slips_against_static_friction: impl FnOnce(
 
 /// [`slips_against_static_friction`] in any direction, with an inertia for whatever has none.
 fn slides_with_inertia(setup: &Setup, work: Work<'_>) -> bool {
-    let slides =
-        |setup: &Setup| slips_against_static_friction(setup, &directions(setup), work);
+    let slides = |setup: &Setup| slips_against_static_friction(setup, &directions(setup), work);
     with_inertia(setup).is_ok_and(|setup| slides(&setup))
 }
 

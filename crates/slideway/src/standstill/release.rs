@@ -1,7 +1,7 @@
 //! States in which a mechanism begins to move: every joint sticks or slips one way or the other.
 
-use super::reactions::{range, reactions};
 use super::directions::Direction;
+use super::reactions::{range, reactions};
 use super::report::{CoordinateRange, GapRange, JointRelease, Range, Release};
 use super::rest::{Over, possible, static_friction, symbols, until_over};
 use super::setup::{Setup, SlidingJoint};
@@ -69,7 +69,10 @@ impl Over<Vec<Release>> {
 /// nothing may lift off, so that their forces are isolated: then the search of the block mode problem finds all of them, or says that it does not.
 fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'_>) -> Option<TurningStates> {
     let may_lift_off = setup.mechanism.one_sided().next().is_some();
-    if setup.shared.is_some() || may_lift_off || signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking) {
+    if setup.shared.is_some()
+        || may_lift_off
+        || signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking)
+    {
         return None;
     }
     let states = turning_states(setup, signs, motions, &mut |told| work.tell(told))?;

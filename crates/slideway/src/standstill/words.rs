@@ -12,11 +12,9 @@ pub(super) fn release_in_words(
     slip: i8,
 ) -> String {
     let slider = setup.mechanism.slider(joint.joint).filter(|_| slip != 0);
-    let slides =
-        slider.map(|slider| sliding_in_words(&setup.mechanism, &setup.configuration, slider, slip));
-    let closed = |k: &&usize| {
-        !setup.mechanism.contacts[**k].opens || contacts[**k] != ContactPhase::PreloadGap
-    };
+    let slides = slider.map(|slider| sliding_in_words(&setup.mechanism, &setup.configuration, slider, slip));
+    let closed =
+        |k: &&usize| !setup.mechanism.contacts[**k].opens || contacts[**k] != ContactPhase::PreloadGap;
     let closed: Vec<usize> = joint.contacts.iter().filter(closed).copied().collect();
     match closed.as_slice() {
         [] if !joint.contacts.is_empty() => "lifts off".to_owned(),

@@ -103,7 +103,9 @@ fn value(range: Range) -> f64 {
 #[test]
 fn the_reference_begins_to_move_in_these_states() {
     // At rest drives are absent.
-    for RestCase { name, system, states } in reference().rest.into_iter().filter(|case| case.system.drives.is_empty()) {
+    for RestCase { name, system, states } in
+        reference().rest.into_iter().filter(|case| case.system.drives.is_empty())
+    {
         let found = held(&system.text(), &[], &HoldOptions::default());
         assert!(found.undecided == 0 && !found.holds, "{name}");
         assert_eq!(found.releases.len(), states.len(), "{name}: {:#?}", found.releases);
@@ -185,7 +187,8 @@ fn a_ladder_is_pulled_off_its_wall() {
 fn a_box_holds_or_slides_or_tips() {
     for BoxCase { beta_deg, b, h, mu_static, holds } in reference().boxes {
         let list = [("b", b), ("h", h)].map(|(name, value)| (name, format!("{value} m")));
-        let list = list.into_iter().chain([("slope", format!("{beta_deg} deg")), ("mu", mu_static.to_string())]);
+        let list =
+            list.into_iter().chain([("slope", format!("{beta_deg} deg")), ("mu", mu_static.to_string())]);
         let list: Vec<(&str, String)> = list.collect();
         let list: Vec<(&str, &str)> = list.iter().map(|(name, value)| (*name, value.as_str())).collect();
         assert_eq!(held(BOX, &list, &HoldOptions::default()).holds, holds, "{list:?}");
@@ -248,16 +251,25 @@ fn a_peg_jams_outside_the_parallelogram() {
             let joint = |name: &str| {
                 let (x, along) = if name.ends_with("left") { (-radius, -90) } else { (radius, 90) };
                 if name.starts_with("tip") {
-                    format!("[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = [{x}, {}]\nalong = \"{along} deg\"\nmu = {mu}\n", -depth)
+                    format!(
+                        "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = [{x}, {}]\nalong = \"{along} deg\"\nmu = {mu}\n",
+                        -depth
+                    )
                 } else {
-                    format!("[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"ground\"\nguide = \"peg\"\nat = [{x}, 0]\nalong = \"{} deg\"\nmu = {mu}\n", -along)
+                    format!(
+                        "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"ground\"\nguide = \"peg\"\nat = [{x}, 0]\nalong = \"{} deg\"\nmu = {mu}\n",
+                        -along
+                    )
                 }
             };
             format!(
                 "[points]\nT = [0, {}]\n[bodies.peg]\npoints = [\"T\"]\nmass = 1\nmoment_of_inertia = 1e-4\ncentre_of_mass = \"T\"\n\
                  {}{}[loads.F]\ntype = \"force\"\nat = \"peg.T\"\ncomponents = [{across}, -1]\n\
                  [loads.M]\ntype = \"torque\"\nbody = \"peg\"\nmoment = {}\n[coordinates.depth]\ny = \"peg.T\"\n",
-                -depth, joint(pair[0]), joint(pair[1]), moment * radius
+                -depth,
+                joint(pair[0]),
+                joint(pair[1]),
+                moment * radius
             )
         };
         let pairs = [

@@ -56,12 +56,9 @@ fn options(system: &System, k: usize) -> Vec<(Does, f64)> {
     let contact = &system.contacts[k];
     let sign = system.sliding_velocity(contact).signum();
     match contact.kind.as_str() {
-        "resting" => vec![
-            (Does::Sticks, 1.0),
-            (Does::Rubs(1.0), 1.0),
-            (Does::Rubs(-1.0), 1.0),
-            (Does::Opens, 1.0),
-        ],
+        "resting" => {
+            vec![(Does::Sticks, 1.0), (Does::Rubs(1.0), 1.0), (Does::Rubs(-1.0), 1.0), (Does::Opens, 1.0)]
+        }
         "sliding" => vec![(Does::Rubs(sign), 1.0), (Does::Opens, 1.0)],
         _ => vec![(Does::Rubs(sign), 1.0), (Does::Rubs(sign), -1.0)],
     }
@@ -97,7 +94,11 @@ fn equations(system: &System, pattern: &[(Does, f64)]) -> (DMatrix<f64>, DVector
             let [a, b] = hinge.between.each_ref();
             let row = system.place(a, hinge.at, axis) - system.place(b, hinge.at, axis);
             let at = bodies + 2 * index + part;
-            constrain(at, &row, system.centripetal(b, hinge.at, axis) - system.centripetal(a, hinge.at, axis));
+            constrain(
+                at,
+                &row,
+                system.centripetal(b, hinge.at, axis) - system.centripetal(a, hinge.at, axis),
+            );
             forces.push((at, row));
         }
     }
@@ -165,9 +166,8 @@ fn native_states(system: &System) -> Option<(Vec<Native>, bool)> {
         let of = |k: usize, part: usize| unknowns[bodies + hinges + 2 * k + part];
         let normal: Vec<f64> = (0..contacts.len()).map(|k| of(k, 0)).collect();
         let friction: Vec<f64> = (0..contacts.len()).map(|k| of(k, 1)).collect();
-        let moves = |k: usize, axis: Vector2<f64>| {
-            system.relative(&contacts[k], axis).dot(&unknowns.rows(0, bodies))
-        };
+        let moves =
+            |k: usize, axis: Vector2<f64>| system.relative(&contacts[k], axis).dot(&unknowns.rows(0, bodies));
         let gap = |k: usize| moves(k, contacts[k].normal()) + system.gap_of_velocities(&contacts[k]);
         let slip = |k: usize| {
             let axis = contacts[k].tangent();
@@ -250,8 +250,13 @@ fn is_at_rest(system: &System) -> bool {
     system.drives.is_empty() && system.contacts.iter().all(|contact| contact.rests() || contact.mu == 0.0)
 }
 
+/// So many random systems: those of the suite, or as many as `SLIDEWAY_RESTING` says.
+fn count() -> u32 {
+    std::env::var("SLIDEWAY_RESTING").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
+}
+
 proptest! {
-    #![proptest_config(cases(300))]
+    #![proptest_config(cases(count()))]
 
     /// One or two bodies whose corners are at rest, slide or are pins in slots.
     #[test]
@@ -289,6 +294,9 @@ proptest! {
         prop_assert!(!report.at_rest.is_empty());
         prop_assert!(leaves_open || report.continua.is_empty(), "{}", system.text());
         assert_states(&report, &system, &states, 1e-7, "random");
+        if report.every_load_has_one_state == Some(true) {
+            prop_assert_eq!((states.len(), leaves_open), (1, false), "{}", system.text());
+        }
         if !leaves_open && is_at_rest(&system) && system.contacts.iter().all(|one| one.mu_static.is_none()) {
             prop_assert_eq!(states.len() % 2, 1, "{}", system.text());
         }
@@ -305,19 +313,42 @@ fn at_rest(text: &str, list: &[(&str, &str)]) -> SolveReport {
 fn a_box_starts_as_the_reference_says() {
     let text = BOX.replace("rate = \"-1 m/s\"", "");
     let tips = at_rest(&text, &[("b", "100 mm"), ("slope", "25 deg"), ("mu", "0.8")]);
-    assert_eq!(tips.answer(), "It starts in one way. base: on its left corner, the right one opens: it tips, sticks.");
+    assert_eq!(
+        tips.answer(),
+        "It starts in one way. base: on its left corner, the right one opens: it tips, sticks. Every load has exactly one state."
+    );
     let rear = contact(&tips.solutions[0], "base.rear");
-    assert!((rear.normal_force - 9.230_261_503).abs() < 1e-8 && (rear.friction_force + 2.788_356_701).abs() < 1e-8);
+    assert!(
+        (rear.normal_force - 9.230_261_503).abs() < 1e-8
+            && (rear.friction_force + 2.788_356_701).abs() < 1e-8
+    );
     let front = contact(&tips.solutions[0], "base.front");
     assert!((front.gap_acceleration.unwrap() - 0.678_764_223_5).abs() < 1e-8);
     let both = at_rest(&text, &[("b", "100 mm"), ("slope", "40 deg"), ("mu", "0.3")]);
     assert_eq!(both.status, Status::One);
     assert!((contact(&both.solutions[0], "base.rear").normal_force - 7.789_831_206).abs() < 1e-8);
-    assert!((contact(&both.solutions[0], "base.front").gap_acceleration.unwrap() - 0.549_870_438_1).abs() < 1e-8);
+    assert!(
+        (contact(&both.solutions[0], "base.front").gap_acceleration.unwrap() - 0.549_870_438_1).abs() < 1e-8
+    );
     let stays = at_rest(&text, &[]);
-    assert_eq!(stays.answer(), "It starts in one way. base: closed, sticks.");
+    assert_eq!(
+        stays.answer(),
+        "It starts in one way. base: closed, sticks. Every load has exactly one state."
+    );
     assert!(stays.solutions[0].coordinates[0].acceleration.abs() < 1e-12);
     assert_eq!(stays.solutions[0].oriented_determinant.signum(), 1.0);
+}
+
+/// Painlevé's rod of the reference at rest: one state for every load up to the critical friction 4/3.
+#[test]
+fn a_rod_at_rest_has_one_state_for_every_load_up_to_the_critical_friction() {
+    let mut system = reference().rest.remove(0).system;
+    for (mu, unique) in [(1.333, true), (1.334, false)] {
+        system.contacts[0].mu = mu;
+        let report = report_on(&system.text());
+        assert_eq!(report.every_load_has_one_state, Some(unique), "{mu}");
+        assert!(!unique || report.solutions.len() == 1);
+    }
 }
 
 /// A box on a cart that is braked while it runs: it tips over its front edge.
@@ -326,7 +357,10 @@ fn a_box_on_a_braked_cart_tips() {
     let report = at_rest(CART, &[]);
     let [solution] = report.solutions.as_slice() else { panic!("{report:?}") };
     let found = |name: &str| contact(solution, name).normal_force;
-    assert!((found("rail.rear") - 23.972_297_3).abs() < 1e-7 && (found("rail.front") - 36.295_270_27).abs() < 1e-7);
+    assert!(
+        (found("rail.rear") - 23.972_297_3).abs() < 1e-7
+            && (found("rail.front") - 36.295_270_27).abs() < 1e-7
+    );
     assert!((found("base.front") - 21.027_567_57).abs() < 1e-7 && found("base.rear") == 0.0);
     assert!((contact(solution, "base.rear").gap_acceleration.unwrap() - 1.407_567_568).abs() < 1e-8);
     assert!((solution.coordinates[0].acceleration + 6.440_608_108).abs() < 1e-8);
