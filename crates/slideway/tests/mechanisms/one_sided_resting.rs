@@ -303,6 +303,34 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(cases(200))]
+
+    /// A block whose centre of mass, load and friction are arbitrary: an odd number of states; one, where it is said that every
+    /// load has one.
+    #[test]
+    fn a_block_at_rest_has_an_odd_number_of_states(
+        place in [-0.3_f64..0.3, 0.02_f64..0.5],
+        load in [-20.0_f64..20.0, -20.0_f64..20.0, -4.0_f64..4.0],
+        mu in 0.05_f64..4.0,
+    ) {
+        let text = BOX.replace("rate = \"-1 m/s\"", "").replace(
+            "C = [\"-h/2*sin(slope)\", \"h/2*cos(slope)\"]",
+            &format!("C = {place:?}"),
+        );
+        let push = format!(
+            "[loads.push]\ntype = \"force\"\nat = \"box.C\"\ncomponents = [{:?}, {:?}]\n[loads.turn]\ntype = \"torque\"\nbody = \"box\"\nmoment = {:?}\n",
+            load[0], load[1], load[2]
+        );
+        let report = at_rest(&(text + &push), &[("slope", "0 deg"), ("mu", &mu.to_string())]);
+        prop_assume!(report.solutions.iter().all(|solution| !solution.on_boundary));
+        prop_assert_eq!(report.solutions.len() % 2, 1, "{:#?}", report.solutions);
+        if report.every_load_has_one_state == Some(true) {
+            prop_assert_eq!(report.solutions.len(), 1);
+        }
+    }
+}
+
 fn at_rest(text: &str, list: &[(&str, &str)]) -> SolveReport {
     let settings = list.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
     solve(&Model::parse(text).unwrap().with(&settings).unwrap()).unwrap()
