@@ -3,6 +3,7 @@
 use crate::one_sided_systems::System;
 use rstest::rstest;
 use serde::Deserialize;
+use slideway::limits::{Vary, rest_limits};
 use slideway::model::{Model, Settings};
 use slideway::report::Report;
 use slideway::standstill::{
@@ -166,6 +167,66 @@ fn a_ladder_slips_at_the_friction_of_the_closed_form(#[case] climbed: f64) {
         assert_eq!(held(&text, &list, &HoldOptions::default()).holds, holds, "{least}");
     }
 }
+
+/// With both of its ends about to slip: `N_head = mu_foot W/(1 + mu_foot mu_head)`, `m/2 + c M = N_head (tan(lean) + mu_head)/g`.
+#[test]
+fn a_person_climbs_as_far_as_the_closed_form_says() {
+    let vary = Vary::between("climbed", "0", "1");
+    let found = rest_limits(&Model::parse(LADDER).unwrap(), &vary, &HoldOptions::default()).unwrap();
+    let [holds, slips] = found.spans.as_slice() else { panic!("{:?}", found.spans) };
+    assert_eq!((holds.holds, slips.holds), (Some(true), Some(false)));
+    let climbed = (0.5 * 90.0 / 1.15 * (60_f64.to_radians().tan() + 0.3) - 5.0) / 80.0;
+    assert!((holds.to - climbed).abs() < 1e-8, "{}, {climbed}", holds.to);
+}
+
+/// A lever on a rough pin, its end on the floor (and a cart beside it that gives the model a freedom): the couple of the pin, `|M| <= r R`, adds `M/L` to half of the weight.
+#[test]
+fn hinges_with_friction_beside_them_widen_the_ranges() {
+    let found = held(LEVER, &[], &HoldOptions::default());
+    let force = contact(&found.at_rest.as_ref().unwrap().reactions, "tip").normal_force;
+    // N = m g/2 + M/L, R = m g - N, M = +- r R.
+    let end = |sign: f64| GRAVITY * (0.5 + sign * 0.02) / (1.0 + sign * 0.02);
+    assert_range(force, [end(-1.0), end(1.0)], "tip");
+    assert_eq!(found.verdict, HoldVerdict::Holds);
+}
+
+const LEVER: &str = r#"
+gravity = "9.81 m/s^2"
+[points]
+O = [0, 0]
+C = [0.5, 0]
+tip = [1, 0]
+K = [3, 0]
+[bodies.lever]
+points = ["O", "C", "tip"]
+mass = 1
+moment_of_inertia = 0.1
+centre_of_mass = "C"
+[joints.pin]
+type = "hinge"
+between = ["ground.O", "lever.O"]
+friction_radius = 0.02
+[joints.tip]
+type = "corner_on_face"
+block = "lever"
+at = "tip"
+along = "0 deg"
+mu = 0
+[bodies.cart]
+points = ["K"]
+mass = 1
+moment_of_inertia = 0.1
+centre_of_mass = "K"
+[joints.rail]
+type = "guided_slider"
+block = "cart"
+at = "K"
+along = "0 deg"
+length = 0.1
+mu = 0
+[coordinates.x]
+slide = "rail"
+"#;
 
 /// Nothing pulls a ladder to its wall.
 #[test]
