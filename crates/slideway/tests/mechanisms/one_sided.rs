@@ -376,6 +376,19 @@ fn the_peg_locks_at_the_friction_of_the_reference() {
     assert!(json.contains(&format!("{effort:?}")[..8]), "{json}");
 }
 
+/// The latch of the reference locks where the force on its nose points to its pivot: `mu = (P x n)/(P x u) = 0.5472587141`.
+#[test]
+fn the_latch_locks_at_the_friction_of_the_closed_form() {
+    let model = Model::parse(include_str!("../../../../docs/src/examples/latch.toml")).unwrap();
+    let report = limits(&model, &LimitsOptions::new("mu=0..1".parse().unwrap())).unwrap();
+    let (sin, cos) = 50_f64.to_radians().sin_cos();
+    let critical = (0.1 * cos - 0.02 * sin) / (0.1 * sin + 0.02 * cos);
+    assert_close(report.counts[0].to, critical, 1.0, 1e-8);
+    assert_close(critical, 0.547_258_714_1, 1.0, 1e-9);
+    let effort = only(&report_with(&model, &Settings::default())).drives[0].effort;
+    assert_close(effort, 90.409_901_39, 1.0, 1e-7);
+}
+
 #[test]
 fn what_is_not_known_yet_is_refused() {
     let model = rod(&[]);
