@@ -306,6 +306,7 @@ fn faulty_influence_coefficients_are_named() -> Result<(), Box<dyn Error>> {
         velocity_signs: dvector![1.0, -1.0],
         frictionless: dvector![1.0, 2.0],
         shared: None,
+        one_sided: vec![],
     };
     let problem = ModeProblem::from_influence(&good)?;
     assert_close(&problem.columns(Side::Negative).column(1).into_owned(), &dvector![0.04, -0.92], 1e-15);

@@ -159,6 +159,7 @@ fn example(mu_1: f64, preload: f64) -> ModeProblem {
         velocity_signs: dvector![1.0, 1.0, 1.0],
         frictionless: dvector![0.5, 0.25, -0.25],
         shared: None,
+        one_sided: vec![],
     })
     .expect("finite numbers")
 }

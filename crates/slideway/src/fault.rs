@@ -413,6 +413,20 @@ pub enum FaultKind {
     RigidWithoutPlay { contacts: Vec<String> },
     #[error("{question} is not computed for press fits: {}", listed(contacts))]
     PressFit { question: &'static str, contacts: Vec<String> },
+    #[error("{question} is not computed for contacts that may lift off: {}", listed(contacts))]
+    OneSided { question: &'static str, contacts: Vec<String> },
+    #[error(
+        "{} may lift off, but with the other joints closed nothing says what each of them carries while it slides",
+        listed(contacts)
+    )]
+    OneSidedInExcess { contacts: Vec<String> },
+    #[error(
+        "when {} lifted off, the acceleration could not be computed, as what moves then has no mass: {motion}",
+        listed(contacts)
+    )]
+    LiftsWithoutInertia { contacts: Vec<String>, motion: String },
+    #[error("{contact} is not on its face: it is off by {gap}")]
+    OffFace { contact: String, gap: String },
     #[error("nothing says how firmly these press fits grip: {}", listed(contacts))]
     PressFitWithoutStiffness { contacts: Vec<String> },
     #[error("a guided slider with a press fit is not computed: {}", listed(contacts))]
@@ -630,6 +644,14 @@ impl FaultKind {
             Self::GuidedPressFit { .. } => Some(
                 "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
             ),
+            Self::OneSidedInExcess { .. } => Some(
+                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play"
+                    .to_owned(),
+            ),
+            Self::LiftsWithoutInertia { .. } => Some(
+                "give mass to the bodies that nothing else holds".to_owned(),
+            ),
+            Self::OffFace { .. } => Some("draw it on the line through both ends of its face".to_owned()),
             Self::PreloadOfPressFit { .. } => Some("give one `preload` for both faces".to_owned()),
             Self::PlayChangesSign { .. } => Some(
                 "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"
@@ -679,6 +701,10 @@ impl FaultKind {
             ),
             Self::PressFit { .. } => format!(
                 "give a play of zero or more; press fits that slide under a given load are for `{}`, `limits`, `drive`, `size`, `sweep` and `map`, those at rest for `hold`",
+                face.question("solve")
+            ),
+            Self::OneSided { .. } => format!(
+                "`{}`, `hold`, and while they slide `sweep`, `map`, `limits`, `size` and `drive` know them; where they are sure to stay closed, a `pin_in_slot` or a `block_slider` may stand for them",
                 face.question("solve")
             ),
             Self::ContradictoryPhase { .. } => {

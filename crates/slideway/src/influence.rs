@@ -11,7 +11,7 @@
 //! which face its friction acts, column `k` has two versions; they are equal where the height is zero.
 
 use crate::ids::{ContactId, JointId};
-use crate::kinetics::{Influences, KineticEquations, Layout, Reaction};
+use crate::kinetics::{Influences, KineticEquations, Layout, Opening, Reaction};
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns without friction, and what each contact's friction adds to them.
@@ -28,12 +28,14 @@ pub struct Influence {
     /// For each contact that is cut because redundant guides share a load: what a unit normal force of it adds to
     /// all unknowns, a self-stress. Its own normal force is 1, every acceleration 0.
     pub(crate) self_stresses: Vec<DVector<f64>>,
+    /// Those of the contacts that may lift off.
+    pub(crate) openings: Vec<Opening>,
     /// Index of each contact's normal force among the unknowns.
     normal: Vec<usize>,
 }
 
 /// Friction of one contact, split by where it acts.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct ContactFriction {
     /// At the face that is pressed when the normal force is positive (N).
     pub positive_face: f64,
@@ -74,13 +76,13 @@ impl Influence {
 
     /// The influence coefficients that these are.
     pub(crate) fn of(influences: Influences) -> Self {
-        let Influences { layout, frictionless, columns, couples, self_stresses, .. } = influences;
+        let Influences { layout, frictionless, columns, couples, self_stresses, openings, .. } = influences;
         let normal = (0..columns.len())
             .map(|k| {
                 layout.reaction(Reaction::Normal(ContactId(k))).expect("every contact has a normal force")
             })
             .collect();
-        Self { layout, frictionless, columns, couples, self_stresses, normal }
+        Self { layout, frictionless, columns, couples, self_stresses, openings, normal }
     }
 
     /// Where the unknowns stand.
@@ -113,7 +115,7 @@ impl Influence {
     }
 
     /// All unknowns for given friction forces, eqs. (3)-(5), and these normal forces of the contacts, of which
-    /// only those that are cut are needed.
+    /// only those that are cut are needed, and the negative ones of contacts that lift off.
     pub fn unknowns(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {
         &self.frictionless + self.of_forces(friction, normal_forces)
     }
@@ -124,7 +126,15 @@ impl Influence {
         for (contact, self_stress) in self.layout.cut().iter().zip(&self.self_stresses) {
             unknowns.axpy(normal_forces[contact.index()], self_stress, 1.0);
         }
+        for Opening { contact, answer, .. } in &self.openings {
+            unknowns.axpy((-normal_forces[*contact]).max(0.0), answer, 1.0);
+        }
         unknowns
+    }
+
+    /// The contacts that may lift off, each with a part of what the acceleration of its gap adds to all unknowns.
+    pub(crate) fn one_sided<R>(&self, part: impl Fn(&DVector<f64>) -> R) -> Vec<(usize, R)> {
+        self.openings.iter().map(|Opening { contact, answer, .. }| (*contact, part(answer))).collect()
     }
 
     /// Places among all unknowns: of the normal forces, then of both components of the hinge forces of these friction

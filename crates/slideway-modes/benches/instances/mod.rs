@@ -141,6 +141,7 @@ pub(crate) fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
         velocity_signs: DVector::from_element(contacts, 1.0),
         frictionless: load,
         shared: Some(shared),
+        one_sided: vec![],
     })
     .expect("shapes fit")
 }

@@ -35,6 +35,14 @@ pub struct InfluenceCoefficients<T: Real = f64> {
     /// How contacts share a load that equilibrium leaves open, with self-stresses in all rows; `None` if none
     /// do.
     pub shared: Option<SharedLoad<T>>,
+    /// The contacts that open in place of pressing another face, where `N < 0` stands for: each with what a unit of
+    /// `y_k` adds in all rows, 1 or -1 in its own. There `y_k` is the acceleration of its gap, times the force that
+    /// a unit of it takes,
+    ///
+    /// ```text
+    /// c_k^- = -(dN/dg''_k) / |dN_k/dg''_k|,    y_k = |dN_k/dg''_k| g''_k
+    /// ```
+    pub one_sided: Vec<(usize, DVector<T>)>,
 }
 
 impl<T: Real> InfluenceCoefficients<T> {
@@ -75,15 +83,26 @@ impl<T: Real> InfluenceCoefficients<T> {
         self.eta.get(side)[(row, contact)] * mu * T::exactly(self.velocity_signs[contact])
     }
 
+    /// The force that a unit of `y_k` adds in a row, beside `sigma` in its own: by friction, or where the contact opens by the
+    /// motion of its gap.
+    fn added(&self, side: Side, row: usize, contact: usize) -> T {
+        let opening = self.one_sided.iter().find(|(opens, _)| *opens == contact && side == Side::Negative);
+        match opening {
+            Some((_, opening)) if row == contact => opening[row] - T::one(),
+            Some((_, opening)) => opening[row],
+            None => self.friction(side, row, contact),
+        }
+    }
+
     fn column(&self, side: Side, row: usize, contact: usize) -> T {
         let unit = T::exactly(if row == contact { side.sign() } else { 0.0 });
-        let given = unit - self.friction(side, row, contact);
+        let given = unit - self.added(side, row, contact);
         self.shared.as_ref().map_or(given, |shared| shared.column(side, row, contact, given))
     }
 
     /// `H_k^sigma` of `x = b + d^sigma + H^sigma |x|` in a row: `sigma e_k - c_k^sigma`.
     pub fn response(&self, side: Side, row: usize, contact: usize) -> T {
-        let given = self.friction(side, row, contact);
+        let given = self.added(side, row, contact);
         self.shared.as_ref().map_or(given, |shared| shared.response(side, row, contact, given))
     }
 
@@ -168,6 +187,7 @@ impl ModeProblem {
     ///     velocity_signs: dvector![1.0],
     ///     frictionless: dvector![4.0],
     ///     shared: None,
+    ///     one_sided: vec![],
     /// })?;
     /// let solutions = enumerate(&problem, &Limits::default())?;
     /// assert!((solutions.solutions[0].normal_force[0] - 5.0).abs() < 1e-12);
@@ -197,6 +217,7 @@ impl ModeProblem {
     ///         misalignment: dvector![0.0, 0.0],
     ///         press_fits: vec![],
     ///     }),
+    ///     one_sided: vec![],
     /// })?;
     /// let solutions = enumerate(&problem, &Limits::default())?;
     /// assert!((&solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
@@ -234,6 +255,7 @@ impl IntervalModeProblem {
     ///     velocity_signs: dvector![1.0],
     ///     frictionless: dvector![Interval::point(4.0)],
     ///     shared: None,
+    ///     one_sided: vec![],
     /// })?;
     /// let decision = decide(&problem, &[ContactState::Positive]).decision;
     /// assert!(matches!(decision, Decision::Solution { .. }), "it persists for all mu");

@@ -194,6 +194,12 @@ impl OpenContacts {
         Self { self_stress: Some(self_stress).filter(|forces| forces.ncols() > 0) }
     }
 
+    /// Those of some contacts, in which no other one takes part.
+    #[must_use]
+    pub fn of_contacts(&self, contacts: &[usize]) -> Self {
+        Self { self_stress: self.self_stress.as_ref().map(|forces| forces.select_rows(contacts)) }
+    }
+
     /// Whether a contact takes part in a self-stress.
     pub fn shares(&self, contact: usize) -> bool {
         self.self_stress

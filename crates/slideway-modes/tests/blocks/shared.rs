@@ -51,6 +51,7 @@ fn as_contacts(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &Sh
         velocity_signs: DVector::from_element(CONTACTS, 1.0),
         frictionless: load.clone(),
         shared: Some(shared.clone()),
+        one_sided: vec![],
     })
     .unwrap()
 }

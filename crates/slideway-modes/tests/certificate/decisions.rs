@@ -220,6 +220,7 @@ fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
         velocity_signs: DVector::from_vec(vec![1.0, -1.0]),
         frictionless: vector(1.0),
         shared: None,
+        one_sided: vec![],
     };
     let problem = IntervalModeProblem::from_influence(&influence).expect("it fits");
     let rounded = ModeProblem::from_influence(&InfluenceCoefficients {
@@ -230,6 +231,7 @@ fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
         velocity_signs: influence.velocity_signs.clone(),
         frictionless: DVector::from_element(2, 1.0),
         shared: None,
+        one_sided: vec![],
     })
     .expect("it fits");
     for pattern in patterns(2, &STATES[..2]) {

@@ -171,6 +171,7 @@ fn klepp_with_exact_numbers(mu_1: f64, velocity: f64) -> ModeProblem {
         velocity_signs: DVector::repeat(3, velocity),
         frictionless: dvector![0.5, 0.25, -0.25],
         shared: None,
+        one_sided: vec![],
     })
     .expect("finite numbers")
 }

@@ -8,7 +8,8 @@
 //!   the slot its flank;
 //! - a massless body that runs over contacts of ground without friction, and only carries what slides on it, is a
 //!   belt on rollers;
-//! - two pins of a body in one slot are the shoes of a carriage.
+//! - two pins of a body in one slot are the shoes of a carriage;
+//! - what may lift off has one face.
 //!
 //! A face is drawn as one only where the contact does not pull at it, and has no play that counts.
 
@@ -86,7 +87,9 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
         let look = of_geometry(mechanism, slider);
         let pulls =
             |side: f64| slider.contacts.iter().any(|contact| side * states.side(contact.index()) < 0.0);
+        let may_lift_off = may_lift_off(mechanism, slider);
         looks[id.index()] = match look {
+            look if may_lift_off => look,
             Look::Face(side) | Look::Flank(side) if pulls(side) || states.has_deflections(slider) => {
                 Look::Walls
             }
@@ -104,7 +107,14 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
     looks
 }
 
+fn may_lift_off(mechanism: &Mechanism, slider: &Slider) -> bool {
+    slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens)
+}
+
 fn of_geometry(mechanism: &Mechanism, slider: &Slider) -> Look {
+    if may_lift_off(mechanism, slider) {
+        return Look::Face(1.0);
+    }
     if slider.kind == SliderKind::Pin {
         let flank = slider.guide.body().and_then(|guide| flank_of(mechanism, guide));
         return match flank {

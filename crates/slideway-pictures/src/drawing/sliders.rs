@@ -63,14 +63,12 @@ impl Slide {
     pub(super) fn housing(&self) -> Vec<Point> {
         let (_, local, [from, to]) = self.outer();
         let end = |is_open: bool| if is_open || self.around { 0.0 } else { WALL };
-        if self.kind == SliderKind::Pin {
-            return self.slot([from, to], WALL);
-        }
         match self.look {
             Look::Face(side) => {
                 let face = -side * self.half_channel();
                 local.rectangle([from, to], [face, face - side * WALL])
             }
+            _ if self.kind == SliderKind::Pin => self.slot([from, to], WALL),
             _ => self.between_faces([from - end(self.open[0]), to + end(self.open[1])], WALL),
         }
     }

@@ -93,6 +93,7 @@ __all__ = [
     "FlutterDamping",
     "Frictionless",
     "FromRest",
+    "GapRange",
     "GapShare",
     "Hatching",
     "HeldFriction",
@@ -392,13 +393,22 @@ static friction.
 without inertia.
 - `"does_not_hold"`: It cannot stay at rest; motions without inertia keep its accelerations from being known."""
 
-JointForm = Literal["hinge", "block slider", "guided slider", "pin in slot"]
+JointForm = Literal[
+    "hinge",
+    "block slider",
+    "guided slider",
+    "pin in slot",
+    "corner on face",
+    "block on face",
+]
 """The kind of a joint.
 
 - `"hinge"`: A hinge.
 - `"block slider"`: A block of some length in a guide, with contacts at both ends.
 - `"guided slider"`: A block that its guide holds straight, with one contact and a couple.
-- `"pin in slot"`: A pin in a slot."""
+- `"pin in slot"`: A pin in a slot.
+- `"corner on face"`: A corner on a face, which it may leave.
+- `"block on face"`: A block on a face, which both of its corners may leave."""
 
 Known = Literal["proven", "closed_form", "sampled", "undecided"]
 """How the numbers of solutions in an interval are known.
@@ -461,6 +471,8 @@ ModeEndCause = Literal[
     "locking",
     "without_bound",
     "side_change",
+    "lifts_off",
+    "touches",
     "gap_closes",
     "tipping",
     "greatest_reaction",
@@ -479,6 +491,8 @@ solution: friction locks the mechanism.
 - `"without_bound"`: Its determinant vanishes, so its normal forces grow without bound, but beyond there is
 another solution.
 - `"side_change"`: A normal force vanishes: a contact changes side.
+- `"lifts_off"`: A normal force vanishes: a contact that was closed lifts off.
+- `"touches"`: The acceleration of a gap vanishes: a contact that opened stays closed.
 - `"gap_closes"`: A preload gap closes.
 - `"tipping"`: A guided slider tips.
 - `"greatest_reaction"`: A normal force reaches the greatest one that is allowed.
@@ -936,6 +950,8 @@ class Contact(Record):
     deflection: float | None = None
     """Of a contact that shares its load with others: by how much the block is displaced against its guide there,
     towards +n (m); within its play where the contact is open."""
+    gap_acceleration: float | None = None
+    """Of a contact that lifts off, whose `side` is -1: the acceleration of its gap (m/s^2)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1692,6 +1708,16 @@ class Frictionless(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class GapRange(Record):
+    """How a contact lifts off."""
+
+    contact: str
+    """Its name."""
+    acceleration: Range
+    """Acceleration of its gap (m/s^2)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class GapShare(Record):
     """An unknown in its preload gap."""
 
@@ -1852,6 +1878,8 @@ class JointRelease(Record):
     """The same in words."""
     acceleration: Range
     """Acceleration of the block against the guide along u (m/s^2)."""
+    open: tuple[str, ...] = ()
+    """Its contacts that lift off; absent if none does."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2561,6 +2589,8 @@ class Release(Record):
     """What each sliding joint does."""
     patterns: tuple[str, ...]
     """The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open."""
+    gaps: tuple[GapRange, ...] = ()
+    """The contacts that lift off; absent if none does."""
     coordinates: tuple[CoordinateRange, ...]
     """Accelerations of the chosen coordinates."""
     reactions: Reactions
@@ -2765,7 +2795,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"steps_from_drawing": None, "patterns": None, "undetermined": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
+    _absent = {"at_rest": (), "every_load_has_one_state": None, "steps_from_drawing": None, "patterns": None, "undetermined": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2791,6 +2821,12 @@ class SolveReport(_mixins.SolveReport, Report):
     """The state: chosen coordinates and their rates."""
     rates_not_given: tuple[str, ...]
     """The coordinates whose rates the model does not give: they are taken as zero."""
+    at_rest: tuple[str, ...]
+    """The joints that may lift off and do not slide in the state: each solution says how they start. Absent if
+    there are none."""
+    every_load_has_one_state: bool | None
+    """Whether every load has exactly one state, where contacts that may lift off rest and nothing slides. Absent
+    elsewhere."""
     time: float
     """Time of the state (s)."""
     steps_from_drawing: int | None

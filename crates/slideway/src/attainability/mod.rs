@@ -112,9 +112,13 @@ impl<'p> ElasticGuides<'p> {
     /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose
     /// mode problem has it.
     pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
-        let shared = self.shared.as_ref()?;
-        let states = shared.closed(states);
-        Some(shared.oriented(&self.mode(&states), &states, &self.stiffness))
+        self.shared.is_some().then(|| self.oriented_determinant(states))
+    }
+
+    /// The oriented determinant p of a mode, 1 without friction.
+    pub(crate) fn oriented_determinant(&self, states: &[ContactState]) -> f64 {
+        let states = self.closed(states);
+        self.oriented(&self.mode(&states), &states)
     }
 
     /// The states of contacts that a pattern of the mode problem stands for.

@@ -30,7 +30,7 @@ use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{LoadSharing, finite};
-use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem};
+use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem, sliding_or_resting};
 use crate::units::Units;
 use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;
@@ -195,6 +195,12 @@ pub enum JointForm {
     /// A pin in a slot.
     #[serde(rename = "pin in slot")]
     PinInSlot,
+    /// A corner on a face, which it may leave.
+    #[serde(rename = "corner on face")]
+    CornerOnFace,
+    /// A block on a face, which both of its corners may leave.
+    #[serde(rename = "block on face")]
+    BlockOnFace,
 }
 
 impl fmt::Display for JointForm {
@@ -204,6 +210,8 @@ impl fmt::Display for JointForm {
             Self::BlockSlider => "block slider",
             Self::GuidedSlider => "guided slider",
             Self::PinInSlot => "pin in slot",
+            Self::CornerOnFace => "corner on face",
+            Self::BlockOnFace => "block on face",
         })
     }
 }
@@ -326,7 +334,7 @@ fn checked(model: &Model, work: Work<'_>) -> Result<CheckReport, Faults> {
     let (mut condition, mut sharing) = (None, None);
     if assembled {
         keep(configuration.put_friction(&mut mechanism));
-        let sliding = Sliding::of(&mechanism, &configuration);
+        let sliding = sliding_or_resting(&mechanism, &configuration);
         match KineticEquations::new_while(&mechanism, &configuration, &mut || !work.is_over()) {
             Ok(equations) => {
                 condition = Some(equations.condition());
@@ -440,9 +448,12 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
         let (kind, frames, constraints, slider) = match &joint.kind {
             JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
+                let opens = slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens);
                 let (kind, constraints) = match slider.kind {
+                    SliderKind::Block if opens => (JointForm::BlockOnFace, 2),
                     SliderKind::Block => (JointForm::BlockSlider, mechanism.places_of(slider).count()),
                     SliderKind::Guided => (JointForm::GuidedSlider, 2),
+                    SliderKind::Pin if opens => (JointForm::CornerOnFace, 1),
                     SliderKind::Pin => (JointForm::PinInSlot, 1),
                 };
                 (kind, [slider.block, slider.guide], constraints, Some(slider))
@@ -465,11 +476,15 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
 }
 
 fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: bool) -> Vec<ContactSummary> {
+    // A contact that may lift off has one face.
+    let faces = |contact: &crate::mechanism::Contact, both: [f64; 2]| {
+        if contact.opens { [both[0]; 2] } else { both }
+    };
     let summary = |id: ContactId, contact: &crate::mechanism::Contact| ContactSummary {
         name: contact.place().to_owned(),
-        mu: contact.mu,
+        mu: faces(contact, contact.mu),
         mu_depends_on_speed: contact.depends_on_speed(),
-        mu_static: contact.mu_static,
+        mu_static: faces(contact, contact.mu_static),
         // Each face of a press fit has half of it.
         preload: contact.preload.map(|preload| if contact.face.is_some() { 2.0 * preload } else { preload }),
         sliding_velocity: assembled.then(|| configuration.contact(mechanism, id).sliding_velocity),

@@ -109,6 +109,45 @@ impl<const GUIDED: bool> SingleSlider<GUIDED> {
     }
 }
 
+/// A block on a face, which both of its corners may leave: a joint with two contacts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BlockOnFace(BlockSlider);
+
+impl BlockOnFace {
+    /// The corner at the end in the direction of `along`.
+    pub fn front(self) -> ContactId {
+        self.0.front()
+    }
+
+    /// The corner at the other end.
+    pub fn rear(self) -> ContactId {
+        self.0.rear()
+    }
+}
+
+/// A corner on a face, which it may leave: a joint with one contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CornerOnFace(SingleSlider<false>);
+
+impl CornerOnFace {
+    /// Its contact.
+    pub fn contact(self) -> ContactId {
+        self.0.contact()
+    }
+}
+
+impl From<BlockOnFace> for JointId {
+    fn from(block: BlockOnFace) -> Self {
+        block.0.into()
+    }
+}
+
+impl From<CornerOnFace> for JointId {
+    fn from(corner: CornerOnFace) -> Self {
+        corner.0.into()
+    }
+}
+
 impl From<BlockSlider> for JointId {
     fn from(slider: BlockSlider) -> Self {
         slider.joint
@@ -135,6 +174,8 @@ mod sealed {
     pub trait Sealed {}
     impl Sealed for super::BlockSlider {}
     impl<const GUIDED: bool> Sealed for super::SingleSlider<GUIDED> {}
+    impl Sealed for super::BlockOnFace {}
+    impl Sealed for super::CornerOnFace {}
 }
 
 impl SliderHandle for BlockSlider {
@@ -150,6 +191,22 @@ impl<const GUIDED: bool> SliderHandle for SingleSlider<GUIDED> {
     const CONTACTS: usize = 1;
     fn of(joint: JointId, contact: ContactId) -> Self {
         Self { joint, contact }
+    }
+}
+
+impl SliderHandle for BlockOnFace {
+    const TYPE: &'static str = "block_on_face";
+    const CONTACTS: usize = 2;
+    fn of(joint: JointId, front: ContactId) -> Self {
+        Self(BlockSlider::of(joint, front))
+    }
+}
+
+impl SliderHandle for CornerOnFace {
+    const TYPE: &'static str = "corner_on_face";
+    const CONTACTS: usize = 1;
+    fn of(joint: JointId, contact: ContactId) -> Self {
+        Self(SingleSlider::of(joint, contact))
     }
 }
 
@@ -309,6 +366,13 @@ macro_rules! lengths {
 }
 
 lengths!(BlockSlider, SingleSlider<true>);
+
+impl SliderBuilder<'_, BlockOnFace> {
+    /// Distance of both corners (m).
+    pub fn length(self, length: impl Into<Quantity>) -> Self {
+        self.set("length", length.into())
+    }
+}
 
 impl SliderBuilder<'_, BlockSlider> {
     /// Sets the properties in which the front contact differs.

@@ -34,7 +34,10 @@ mod joint;
 mod load;
 mod quantity;
 
-pub use joint::{BlockSlider, ContactBuilder, HingeBuilder, SingleSlider, SliderBuilder, SliderHandle};
+pub use joint::{
+    BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, HingeBuilder, SingleSlider, SliderBuilder,
+    SliderHandle,
+};
 pub use load::{DriveBuilder, ForceBuilder, LoadBuilder};
 pub use quantity::Quantity;
 
@@ -143,6 +146,26 @@ impl Drawing {
         block: impl Into<Frame>,
         guide: impl Into<Frame>,
     ) -> SliderBuilder<'_, SingleSlider<true>> {
+        SliderBuilder::new(self, name, [block.into(), guide.into()])
+    }
+
+    /// A corner of the first body on a straight face of the second, which it may leave.
+    pub fn corner_on_face(
+        &mut self,
+        name: &str,
+        block: impl Into<Frame>,
+        guide: impl Into<Frame>,
+    ) -> SliderBuilder<'_, CornerOnFace> {
+        SliderBuilder::new(self, name, [block.into(), guide.into()])
+    }
+
+    /// A block on a straight face of the second body, which both of its corners may leave.
+    pub fn block_on_face(
+        &mut self,
+        name: &str,
+        block: impl Into<Frame>,
+        guide: impl Into<Frame>,
+    ) -> SliderBuilder<'_, BlockOnFace> {
         SliderBuilder::new(self, name, [block.into(), guide.into()])
     }
 

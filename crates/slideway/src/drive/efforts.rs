@@ -44,7 +44,7 @@ impl Efforts {
             line: parts.line_to(&parts),
             drives: stages.mechanism.drives.len(),
             mechanism: stages.mechanism.clone(),
-            frictionless: stages.influence.efforts(&stages.influence.frictionless),
+            frictionless: stages.influence.efforts(&stages.data().without_friction()),
             velocities: velocities(stages),
         })
     }

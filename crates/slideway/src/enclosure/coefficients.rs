@@ -90,28 +90,47 @@ impl Coefficients<'_> {
                 self.without_rounding(unknowns[(rows[row], 0)], scale)
             }),
             shared: shared_load(self.mechanism, self_stress).map_err(NotEnclosed::Values)?,
+            one_sided: self.openings(|at| {
+                DVector::from_fn(rows.len(), |row, _| self.without_rounding(unknowns[(rows[row], at)], 1.0))
+            }),
         })
+    }
+
+    /// For each contact that may lift off what follows from the column of its opening among all unknowns.
+    fn openings<R>(&self, of_column: impl Fn(usize) -> R) -> Vec<(usize, R)> {
+        let layout = &self.equations.layout;
+        let first = 1 + self.mechanism.contacts.len() + layout.cut().len() + self.equations.couples.len();
+        let contacts = layout.one_sided().iter().zip(first..);
+        contacts.map(|(contact, at)| (contact.index(), of_column(at))).collect()
     }
 
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
     /// face that is pressed when its normal force is positive, then what a unit normal force of each cut contact
-    /// adds, then a unit couple of each friction circle; none if the equations are not proven to be regular.
+    /// adds, then a unit couple of each friction circle, then the opening of each contact that may lift off; none if the
+    /// equations are not proven to be regular.
     pub(super) fn unknowns(&self, work: Work<'_>) -> Option<DMatrix<Interval>> {
         let Assembled { layout, matrix, load, friction, couples, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
-        let units = layout.cut_units();
+        let (units, openings) = (layout.cut_units(), layout.opening_units());
         let sides: Vec<&DVector<Interval>> = std::iter::once(load)
             .chain(friction.iter().map(|faces| &faces[0]))
             .chain(&units)
             .chain(couples)
+            .chain(&openings)
             .collect();
         let right = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             sides[column][row] * Interval::point(rows[row])
         });
         let solution = solution(&scaled(matrix, &rows, &columns), &right, work)?;
-        Some(DMatrix::from_fn(load.len(), sides.len(), |row, column| {
+        let mut unknowns = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             solution.entry(row, column) * Interval::point(columns[row])
-        }))
+        });
+        let first = sides.len() - openings.len();
+        let answers = (first..sides.len()).map(|column| unknowns.column(column).into_owned()).collect();
+        for (column, opening) in (first..).zip(layout.openings(answers)) {
+            unknowns.set_column(column, &opening.answer);
+        }
+        Some(unknowns)
     }
 
     /// The forces of the self-stresses in these rows. That nothing but rounding stands where a contact takes
@@ -180,6 +199,7 @@ impl Coefficients<'_> {
                     influence_preload: self.couple_of_preload(&influence),
                     influence,
                     self_stress,
+                    openings: self.openings(|column| row_of[column]),
                     hinges: hinges.iter().map(|hinge| row_of[hinge.column] * hinge.leverage).collect(),
                 },
             })
@@ -197,7 +217,8 @@ impl Coefficients<'_> {
             };
             let influence = (1..=self.mechanism.contacts.len()).map(times).collect();
             let hinges = hinges.iter().map(|hinge| times(hinge.column) * hinge.leverage).collect();
-            EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence, hinges)
+            let output = EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence, hinges);
+            EnclosedOutput { openings: self.openings(times), ..output }
         };
         self.equations.coordinate_rows.iter().map(output).collect()
     }

@@ -30,6 +30,8 @@ pub(crate) struct EnclosedOutput {
     pub(crate) influence_preload: BySide<Vec<Interval>>,
     /// What a unit normal force of each cut contact adds, with the contact: of redundant guides.
     pub(crate) self_stress: Vec<(usize, Interval)>,
+    /// What the opening of each contact that may lift off adds, with the contact.
+    pub(crate) openings: Vec<(usize, Interval)>,
     /// What a unit force of each hinge that turns with friction adds by its couple.
     pub(crate) hinges: Vec<Interval>,
 }
@@ -54,7 +56,8 @@ impl EnclosedOutput {
     ) -> Self {
         let both = BySide { positive: influence.clone(), negative: influence };
         let influence_preload = both.clone();
-        Self { frictionless, influence_preload, influence: both, self_stress: Vec::new(), hinges }
+        let (self_stress, openings) = (Vec::new(), Vec::new());
+        Self { frictionless, influence_preload, influence: both, self_stress, openings, hinges }
     }
 }
 
@@ -111,8 +114,10 @@ impl EnclosedOutputs {
             pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))
         };
         let stresses = output.self_stress.iter().map(of_normal_force);
+        let open = output.openings.iter().filter(|(k, _)| pattern[*k] == ContactState::Negative);
+        let openings = open.map(|&(k, opening)| opening * y[k]);
         let hinges = output.hinges.iter().enumerate().map(|(hinge, unit)| *unit * y[pattern.len() + hinge]);
-        terms.chain(stresses).chain(hinges).fold(output.frictionless, |sum, term| sum + term)
+        terms.chain(stresses).chain(openings).chain(hinges).fold(output.frictionless, |sum, term| sum + term)
     }
 
     /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.

@@ -6,7 +6,7 @@
 //! are those of an earlier state.
 
 use super::system::equilibration;
-use super::{Assembled, ConstraintRow, Layout, Reaction};
+use super::{Assembled, ConstraintRow, Layout, Opening, Reaction};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::ContactId;
@@ -39,6 +39,8 @@ pub(crate) struct Influences {
     pub(crate) couples: Vec<DVector<f64>>,
     /// Contribution of a unit normal force of each cut contact to all unknowns.
     pub(crate) self_stresses: Vec<DVector<f64>>,
+    /// Those of the contacts that may lift off.
+    pub(crate) openings: Vec<Opening>,
     /// Ratio of the greatest to the least pivot.
     pub(crate) condition: f64,
     /// The greatest applied force (N).
@@ -84,14 +86,24 @@ impl Influences {
         elimination: &mut Elimination,
     ) -> Result<Option<Self>, Faults> {
         let assembled = Assembled::new(mechanism, configuration)?;
+        // What has no mass may be without inertia once a contact has lifted off.
+        let is_massless = |body: &crate::mechanism::Body| body.mass == 0.0;
+        if !assembled.layout.one_sided.is_empty() && mechanism.bodies.iter().any(is_massless) {
+            return Ok(None);
+        }
         let Some((condition, places)) = elimination.solve(&assembled) else { return Ok(None) };
         let size = assembled.layout.len();
         let width = elimination.solution.len() / size.max(1);
         let solution =
             |place: usize| DVector::from_fn(size, |row, _| elimination.solution[row * width + place]);
         let columns = places.iter().map(|places| places.map(solution)).collect();
-        let cut = width - assembled.layout.cut.len();
-        let self_stresses = (cut..width).map(solution).collect();
+        let openings = width - assembled.layout.one_sided.len();
+        let cut = openings - assembled.layout.cut.len();
+        let self_stresses = (cut..openings).map(solution).collect();
+        let openings = assembled.layout.openings((openings..width).map(solution).collect());
+        if openings.iter().any(|opening| !opening.acceleration.is_finite()) {
+            return Ok(None);
+        }
         let couples = (cut - assembled.couples.len()..cut).map(solution).collect();
         let frictionless = if width == 0 { DVector::zeros(0) } else { solution(0) };
         Ok(Some(Self {
@@ -100,6 +112,7 @@ impl Influences {
             columns,
             couples,
             self_stresses,
+            openings,
             condition,
             greatest_load: assembled.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
             layout: assembled.layout,
@@ -126,6 +139,8 @@ impl Elimination {
         sides.extend(&assembled.couples);
         let units: Vec<DVector<f64>> = assembled.layout.cut_units();
         sides.extend(&units);
+        let openings: Vec<DVector<f64>> = assembled.layout.opening_units();
+        sides.extend(&openings);
         if self.rows.len() != size {
             (self.rows, self.columns) = equilibration(&assembled.matrix);
         }
@@ -275,6 +290,7 @@ impl super::KineticEquations {
             columns,
             couples,
             self_stresses: self.self_stresses(),
+            openings: self.layout.openings(self.gap_accelerations()),
             condition: self.condition(),
             greatest_load: self.applied.iter().map(|load| load.force.norm()).fold(0.0, f64::max),
             coordinate_rows: self.coordinate_rows.clone(),

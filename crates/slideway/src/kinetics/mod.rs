@@ -34,7 +34,7 @@ use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
-use nalgebra::{DMatrix, DVector, Vector2};
+use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
 use system::{Factorization, Singular, Unfactored};
 pub(crate) use system::{equilibration, scaled};
@@ -53,6 +53,18 @@ pub enum Reaction {
     Couple(JointId),
 }
 
+/// What the acceleration of the gap of a contact that lifts off does, per unit of the force that it takes there. Drives that
+/// act elsewhere than they move may reverse this force.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Opening<T = f64> {
+    /// The contact.
+    pub(crate) contact: usize,
+    /// What is added to all unknowns; 1 or -1 to its own normal force.
+    pub(crate) answer: DVector<T>,
+    /// The acceleration itself (m/s^2 per N).
+    pub(crate) acceleration: T,
+}
+
 /// Where the unknowns stand in their vector: accelerations, reactions, efforts of the drives.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
@@ -61,6 +73,8 @@ pub struct Layout {
     drives: usize,
     /// The contacts that are cut: their normal forces are given, not found.
     cut: Vec<ContactId>,
+    /// The contacts that may lift off.
+    one_sided: Vec<ContactId>,
 }
 
 impl Layout {
@@ -79,8 +93,8 @@ impl Layout {
                 }
             }
         }
-        let cut = mechanism.excess.contacts.clone();
-        Self { bodies: mechanism.bodies.len(), reactions, drives: mechanism.drives.len(), cut }
+        let (cut, one_sided) = (mechanism.excess.contacts.clone(), mechanism.one_sided().collect());
+        Self { bodies: mechanism.bodies.len(), reactions, drives: mechanism.drives.len(), cut, one_sided }
     }
 
     /// Contacts that are cut because redundant guides share a load, one for each self-stress.
@@ -125,12 +139,38 @@ impl Layout {
 
     /// The right-hand sides with one cut normal force of one each.
     pub(crate) fn cut_units<T: Real>(&self) -> Vec<DVector<T>> {
+        self.units(&self.cut)
+    }
+
+    /// The right-hand sides with one acceleration of the gap of a contact that may lift off each, of one.
+    pub(crate) fn opening_units<T: Real>(&self) -> Vec<DVector<T>> {
+        self.units(&self.one_sided)
+    }
+
+    fn units<T: Real>(&self, contacts: &[ContactId]) -> Vec<DVector<T>> {
         let unit = |contact: &ContactId| {
             let mut unit = DVector::zeros(self.len());
             unit[self.reaction(Reaction::Normal(*contact))?] = T::one();
             Some(unit)
         };
-        self.cut.iter().filter_map(unit).collect()
+        contacts.iter().filter_map(unit).collect()
+    }
+
+    /// The contacts that may lift off.
+    pub(crate) fn one_sided(&self) -> &[ContactId] {
+        &self.one_sided
+    }
+
+    /// The openings of the contacts that may lift off, from what a unit acceleration of the gap of each adds to all unknowns.
+    pub(crate) fn openings<T: Real>(&self, answers: Vec<DVector<T>>) -> Vec<Opening<T>> {
+        let of_contact = |(contact, answer): (&ContactId, DVector<T>)| {
+            let at = self.reaction(Reaction::Normal(*contact))?;
+            let (size, sign) = (answer[at].abs(), answer[at].sign_value());
+            let mut answer = answer.map(|value| value / size);
+            answer[at] = sign;
+            Some(Opening { contact: contact.index(), acceleration: T::one() / size, answer })
+        };
+        self.one_sided.iter().zip(answers).filter_map(of_contact).collect()
     }
 
     /// Index of a drive's effort.
@@ -215,7 +255,25 @@ impl KineticEquations {
         let equations =
             Self { layout, contacts, applied, load, friction, couples, factorization, coordinate_rows };
         equations.check_cut_rows(mechanism, &cut_rows)?;
+        equations.check_open(mechanism, configuration)?;
         Ok(equations)
+    }
+
+    /// Whether what moves once all contacts that may lift off are open has inertia.
+    fn check_open(&self, mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
+        let contacts: Vec<usize> = self.layout.one_sided.iter().map(|contact| contact.index()).collect();
+        let Some(first) = contacts.first() else { return Ok(()) };
+        let Err(faults) = Self::new(&mechanism.without_contacts(&contacts), configuration) else {
+            return Ok(());
+        };
+        let without_inertia = faults.sorted().into_iter().find_map(|fault| match &fault.kind {
+            FaultKind::MotionWithoutInertia { motion } => Some(motion.clone()),
+            _ => None,
+        });
+        let Some(motion) = without_inertia else { return Err(faults) };
+        let contacts = contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect();
+        let place = mechanism.joints[mechanism.contacts[*first].joint.index()].place.clone();
+        Err(Fault::new(FaultKind::LiftsWithoutInertia { contacts, motion }, place).into())
     }
 
     /// Whether the motion satisfies the rows of the contacts that are cut, too: their excess persists.
@@ -243,6 +301,13 @@ impl KineticEquations {
     /// unknowns.
     pub fn self_stresses(&self) -> Vec<DVector<f64>> {
         let units: Vec<DVector<f64>> = self.layout.cut_units();
+        let solutions = self.factorization.solve(&units.iter().collect::<Vec<_>>());
+        solutions.iter().map(|solution| self.without_noise(solution)).collect()
+    }
+
+    /// Returns the contribution of a unit acceleration of the gap of each contact that may lift off to all unknowns.
+    pub(crate) fn gap_accelerations(&self) -> Vec<DVector<f64>> {
+        let units: Vec<DVector<f64>> = self.layout.opening_units();
         let solutions = self.factorization.solve(&units.iter().collect::<Vec<_>>());
         solutions.iter().map(|solution| self.without_noise(solution)).collect()
     }
@@ -299,6 +364,18 @@ impl KineticEquations {
     }
 }
 
+/// Returns the acceleration of the gap of a contact that belongs to the unknowns (m/s^2).
+pub(crate) fn gap_acceleration(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    contacts: &[ContactGeometry],
+    (contact, unknowns): (ContactId, &DVector<f64>),
+) -> f64 {
+    let mut row = ConstraintRow::empty();
+    row.set_constraint(mechanism, configuration, contacts, Reaction::Normal(contact));
+    row.times(unknowns) - row.right_hand_side
+}
+
 /// The row that gives the acceleration of sliding of a joint, the block's material point against the guide's
 /// along u.
 #[derive(Debug, Clone)]
@@ -352,6 +429,18 @@ impl<T: Real> Assembled<T> {
     /// # Errors
     /// Loads without a value or direction.
     pub(crate) fn new(mechanism: &Mechanism<T>, configuration: &Configuration<T>) -> Result<Self, Faults> {
+        mechanism.check_one_sided()?;
+        Self::at_rest(mechanism, configuration)
+    }
+
+    /// The same where contacts that may lift off may carry each other, whose forces at rest are ranges.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub(crate) fn at_rest(
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+    ) -> Result<Self, Faults> {
         let layout = Layout::of(mechanism);
         let contacts: Vec<ContactGeometry<T>> =
             (0..mechanism.contacts.len()).map(|k| configuration.contact(mechanism, ContactId(k))).collect();
@@ -368,6 +457,19 @@ impl<T: Real> Assembled<T> {
         let couples =
             mechanism.friction_circles.iter().map(|circle| builder.friction_couple(circle.joint)).collect();
         Ok(Self { layout, contacts, applied, matrix, load, friction, couples, coordinate_rows, cut_rows })
+    }
+
+    /// The row of a contact: the acceleration of its gap is this row times all unknowns, less its right-hand side. The row of
+    /// one that is cut, too.
+    pub(crate) fn gap(&self, contact: ContactId) -> Option<(RowDVector<T>, T)> {
+        let place = self.layout.reaction(Reaction::Normal(contact))?;
+        let Some(cut) = self.layout.cut.iter().position(|cut| *cut == contact) else {
+            return Some((self.matrix.row(place).into_owned(), self.load[place]));
+        };
+        let row = &self.cut_rows[cut];
+        let mut entries = RowDVector::zeros(self.layout.len());
+        row.entries.iter().for_each(|&(column, value)| entries[column] += value);
+        Some((entries, row.right_hand_side))
     }
 
     /// The rows that give the accelerations of the chosen coordinates, where every velocity is zero.

@@ -31,7 +31,9 @@ pub(super) struct Analysis {
 impl Analysis {
     pub(super) fn new(model: &Model, options: &LimitsOptions, work: Work<'_>) -> Result<Self, Faults> {
         if options.max_reaction.is_some() {
-            Mechanism::new(model)?.check_no_press_fit("a greatest reaction")?;
+            let mechanism = Mechanism::new(model)?;
+            mechanism.check_no_press_fit("a greatest reaction")?;
+            mechanism.check_no_one_sided("a greatest reaction")?;
         }
         let vary = &options.vary;
         let varied = vary.of(model)?;

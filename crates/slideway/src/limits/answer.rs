@@ -123,6 +123,7 @@ impl Naming {
             ..speed.clone()
         };
         let signs = signs(&mode.pattern);
+        let closed = |k: usize| self.mechanism.is_closed(&mode.pattern, k);
         let [from, to] = [&mode.from, &mode.to].map(|end| self.reactions(&mode.pattern, end));
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
             let ((from, from_grows), (to, to_grows)) = (limit(&from, k), limit(&to, k));
@@ -135,8 +136,8 @@ impl Naming {
             signs,
             from: end(mode.from.at),
             to: end(mode.to.at),
-            from_is: ModeEndCause::new(&mode.from.cause, found.nothing_is_left(mode.from.at, true)),
-            to_is: ModeEndCause::new(&mode.to.cause, found.nothing_is_left(mode.to.at, false)),
+            from_is: ModeEndCause::new(&mode.from.cause, found.nothing_is_left(mode.from.at, true), closed),
+            to_is: ModeEndCause::new(&mode.to.cause, found.nothing_is_left(mode.to.at, false), closed),
             from_at: self.ends_at(&mode.from.cause, &found.circles),
             to_at: self.ends_at(&mode.to.cause, &found.circles),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),

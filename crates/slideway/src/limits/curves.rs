@@ -6,7 +6,7 @@ use super::found::ModesFound;
 use super::options::LimitsOptions;
 use super::report::LimitsReport;
 use super::varied::Varied;
-use crate::attainability::{ElasticGuides, ElasticHinges};
+use crate::attainability::ElasticHinges;
 use crate::choice::Choice;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -20,7 +20,7 @@ use crate::modes::existence::{EndCause, ModeInterval};
 use crate::problem::TurningHinge;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
-use crate::solve::{Parts, ProblemData, Stages, block_instance, directions, friction, unknowns_of};
+use crate::solve::{Closed, Parts, ProblemData, Stages, block_instance, directions, friction, unknowns_of};
 use crate::units::{Unit, Units};
 use nalgebra::DVector;
 
@@ -336,8 +336,8 @@ impl StateAt {
 
     /// Whether a mechanism with slightly elastic guides settles on a mode.
     pub(crate) fn verdict(&self, pattern: &[ContactState]) -> Verdict {
-        self.stages.data().problem().map_or(Verdict::NotComputed, |problem| {
-            ElasticGuides::new(&self.stages.mechanism, &self.equations, &problem).verdict_on(pattern)
-        })
+        let open: Vec<usize> = self.stages.mechanism.opening(pattern).collect();
+        let closed = Closed::new(self.stages.data(), (&self.stages.configuration, &self.equations), &open);
+        closed.map_or(Verdict::NotComputed, |closed| closed.verdict_on(pattern))
     }
 }

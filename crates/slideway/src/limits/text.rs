@@ -319,6 +319,10 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
         }
         ModeEndCause::SideChange if several => format!("{at} change side"),
         ModeEndCause::SideChange => format!("{at} changes side"),
+        ModeEndCause::LiftsOff if several => format!("{at} lift off"),
+        ModeEndCause::LiftsOff => format!("{at} lifts off"),
+        ModeEndCause::Touches if several => format!("{at} stay closed"),
+        ModeEndCause::Touches => format!("{at} stays closed"),
         ModeEndCause::GapCloses => format!("the gap of {at} closes"),
         ModeEndCause::Tipping if several => format!("{at} tip"),
         ModeEndCause::Tipping => format!("{at} tips"),

@@ -203,21 +203,47 @@ impl<T: Real> Evaluation<'_, T> {
                     [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
                 }),
                 face,
+                opens: contact.opens,
             });
         }
+        let (at, tangent) = (self.vector(slider.at), self.direction(&slider.along));
+        let face = self.face(slider, (at, tangent), length);
         Slider {
             kind: slider.kind,
             block: slider.block,
             guide: slider.guide,
-            at: self.vector(slider.at),
-            tangent: self.direction(&slider.along),
+            at,
+            tangent,
             length,
             height: if slider.around { -height } else { height },
             around: slider.around,
-            travel: slider.travel.map(|travel| travel.map(|limit| self.value(limit))),
+            travel: face.or(slider.travel.map(|travel| travel.map(|limit| self.value(limit)))),
             stops: slider.stops.map(|stop| stop.map(|stop| stop.map(|id| self.value(id)))),
             contacts: (first..contacts.len()).map(ContactId).collect(),
         }
+    }
+
+    /// The displacements between which the whole length of a block is on a face with ends.
+    fn face(
+        &self,
+        slider: &model::Slider,
+        (at, tangent): (Vector2<T>, Vector2<T>),
+        length: T,
+    ) -> Option<[T; 2]> {
+        let Along::Points(ends) = &slider.along else { return None };
+        let [from, to] = ends.each_ref().map(|end| (self.vector(end.position) - at).dot(&tangent));
+        let half = length / T::exactly(2.0);
+        slider.has_ends.then_some([from + half, to - half])
+    }
+
+    /// How far each face with ends is from its block (m).
+    pub(super) fn off_faces(&self) -> impl Iterator<Item = (JointId, T)> + '_ {
+        self.model.joints.iter().enumerate().filter_map(|(index, joint)| {
+            let model::JointKind::Slider(slider) = &joint.kind else { return None };
+            let Along::Points(ends) = &slider.along else { return None };
+            let way = self.vector(slider.at) - self.vector(ends[0].position);
+            slider.has_ends.then(|| (JointId(index), rot90(self.direction(&slider.along)).dot(&way)))
+        })
     }
 
     fn load(&self, load: &model::Load) -> Load<T> {

@@ -5,6 +5,7 @@
 
 mod evaluation;
 mod excess;
+mod one_sided;
 mod pad;
 mod part;
 mod press_fit;
@@ -194,6 +195,9 @@ pub struct Contact<T = f64> {
     pub pad: Option<[T; 2]>,
     /// Which face of a press fit it is, with half of its preload.
     pub face: Option<Face<ContactId>>,
+    /// Whether it lifts off its face in place of pressing another one; with it open the mode problem has what is
+    /// a negative normal force of others.
+    pub opens: bool,
 }
 
 impl Contact {
@@ -505,8 +509,10 @@ impl Mechanism {
     /// # Errors
     /// As [`Self::new`].
     pub(crate) fn with_parameters(model: &Model, given: &[(usize, f64)]) -> Result<Self, Faults> {
-        let mut mechanism = Evaluation { model, values: model.constants_with(given)? }.mechanism();
+        let evaluation = Evaluation { model, values: model.constants_with(given)? };
+        let mut mechanism = evaluation.mechanism();
         mechanism.size = evaluation::size(&mechanism);
+        mechanism.check_on_faces(evaluation.off_faces())?;
         mechanism.check_magnitudes()?;
         mechanism.check_play()?;
         mechanism.check_signs_of_play()?;

@@ -111,6 +111,7 @@ impl Mechanism {
             forces[pressed] = sum(forces[pressed], forces[open]);
             forces[open] = nothing;
         }
+        self.put_out_of_open(states, forces, nothing);
     }
 
     /// Turns forces (N) of the mode problem into those of the faces of press fits.

@@ -137,7 +137,10 @@ pub(super) struct SliderTable {
     /// Middle of the block on the guide's centre line, or the pin, in the drawing: a point's name or [x, y].
     pub(super) at: Place,
     /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
-    pub(super) along: Direction,
+    pub(super) along: Option<Direction>,
+    /// The ends of a face, which `schema.rs` has.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) face: Option<[Name; 2]>,
     /// Distance of the two contacts of a block in the drawing; for a guided slider the length of the pressed face: its
     /// couple is at most normal force times half of it.
     pub(super) length: Option<Quantity>,

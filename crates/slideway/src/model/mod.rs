@@ -258,6 +258,8 @@ pub struct Slider {
     pub around: bool,
     /// Limits of the displacement.
     pub travel: Option<[FormulaId; 2]>,
+    /// Whether the two points of `along` are the ends of its face.
+    pub has_ends: bool,
     /// The stops at the least and at the greatest displacement; without, the motion ends there.
     pub stops: [Option<Stop<FormulaId>>; 2],
     /// Its contacts: front, rear and further supports of a block slider, else the only one; then the negative faces
@@ -301,6 +303,8 @@ pub struct Contact {
     pub pad: Option<Pad>,
     /// Which face of a press fit it is.
     pub face: Option<Face<usize>>,
+    /// Whether it lifts off its face in place of pressing another one.
+    pub opens: bool,
 }
 
 /// The area in contact at a contact.

@@ -66,6 +66,47 @@ enum JointTable {
     GuidedSlider(Box<GuidedSliderTable>),
     /// A pin in a slot, free to rotate: one contact.
     PinInSlot(Box<PinInSlotTable>),
+    /// A corner on a straight face, which it may leave.
+    CornerOnFace(Box<CornerOnFaceTable>),
+    /// A block on a straight face, which both of its corners may leave.
+    BlockOnFace(Box<BlockOnFaceTable>),
+}
+
+/// A corner or a block on a face, which it may leave.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "only its schema is used: it is read as that of a slider")]
+struct OnFaceTable {
+    /// The body that has the corner or the base, or "ground".
+    block: Name,
+    /// The body that has the face. Default: "ground".
+    guide: Option<Name>,
+    /// The corner, or the middle of the base, in the drawing: a point's name or [x, y].
+    at: Place,
+    /// Direction of positive sliding along a face without ends: an angle from the x axis, or two points
+    /// `["from", "to"]`. The block is on its left.
+    along: Option<Direction>,
+    /// The ends of a face, two points `["from", "to"]`, in place of `along`.
+    face: Option<[Name; 2]>,
+    /// Distance of both corners of a block.
+    length: Option<Quantity>,
+    /// The corner at the end in the direction of sliding: what differs there.
+    front: Option<CornerTable>,
+    /// The corner at the other end: what differs there.
+    rear: Option<CornerTable>,
+}
+
+/// What a corner may have.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "only its schema is used: it is read as that of a contact")]
+struct CornerTable {
+    /// Kinetic friction coefficient.
+    mu: Option<Quantity>,
+    /// Static friction coefficient, not below `mu`. Default: `mu`.
+    mu_static: Option<Quantity>,
+    /// Stiffness of the contact (N/m).
+    stiffness: Option<Quantity>,
 }
 
 /// A table that has some keys of others.
@@ -84,13 +125,17 @@ macro_rules! some_keys {
     };
 }
 
-some_keys!(BlockSliderTable: ContactTable, SliderTable; without ["carried_by"]; required ["length"];
+some_keys!(BlockSliderTable: ContactTable, SliderTable; without ["carried_by"]; required ["along", "length"];
     "A block with a contact at each end.");
 some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", "front", "rear", "supports"];
-    required ["length"]; "A slider with one normal force and a couple.");
+    required ["along", "length"]; "A slider with one normal force and a couple.");
 some_keys!(PinInSlotTable: ContactTable, SliderTable;
     without ["carried_by", "front", "rear", "supports", "length", "height", "fit", "preload_line"];
-    required []; "A pin in a slot.");
+    required ["along"]; "A pin in a slot.");
+some_keys!(CornerOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", "length"]; required [];
+    "A corner on a straight face, which it may leave.");
+some_keys!(BlockOnFaceTable: CornerTable, OnFaceTable; without []; required ["length"];
+    "A block on a straight face, which both of its corners may leave.");
 some_keys!(EndTable: ContactTable; without ["at"]; required []; "What differs at one end of a block.");
 some_keys!(SupportTable: ContactTable; without []; required ["at"]; "A further contact of a block.");
 some_keys!(StopAtEndTable: StopTable; without ["least", "greatest"]; required [];

@@ -43,6 +43,8 @@ pub(super) enum JointContents {
 /// A sliding joint: one table of the file, read as that of the joint and as that of its contacts.
 pub(super) struct SliderContents {
     pub(super) kind: SliderKind,
+    /// Whether its contacts lift off their face in place of pressing another one.
+    pub(super) opens: bool,
     pub(super) joint: SliderTable,
     pub(super) contacts: ContactTable,
 }
@@ -220,15 +222,17 @@ fn type_of(value: Spanned<DeValue<'_>>) -> (String, Spanned<DeValue<'_>>) {
 
 fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> {
     let (kind, value) = type_of(value);
-    let kind = match kind.as_str() {
+    let (kind, opens) = match kind.as_str() {
         "hinge" => return Ok(JointContents::Hinge(Box::new(deserialize(value)?))),
-        "block_slider" => SliderKind::Block,
-        "guided_slider" => SliderKind::Guided,
-        _ => SliderKind::Pin,
+        "block_slider" => (SliderKind::Block, false),
+        "block_on_face" => (SliderKind::Block, true),
+        "guided_slider" => (SliderKind::Guided, false),
+        "corner_on_face" => (SliderKind::Pin, true),
+        _ => (SliderKind::Pin, false),
     };
     let joint = deserialize(value.clone())?;
     let contacts = deserialize(without_place(value))?;
-    Ok(JointContents::Slider(Box::new(SliderContents { kind, joint, contacts })))
+    Ok(JointContents::Slider(Box::new(SliderContents { kind, opens, joint, contacts })))
 }
 
 /// Takes the place of a joint out of its table: that of a contact is another kind of value.

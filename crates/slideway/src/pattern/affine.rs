@@ -119,6 +119,11 @@ impl AffineSet {
         &self.particular
     }
 
+    /// The solution with these values of what the equations leave open.
+    pub(crate) fn at(&self, free: &DVector<f64>) -> DVector<f64> {
+        &self.particular + &self.directions * free
+    }
+
     /// Dimension of what the equations leave open.
     pub(crate) fn dimension(&self) -> usize {
         self.directions.ncols()

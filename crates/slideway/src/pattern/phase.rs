@@ -116,7 +116,7 @@ pub enum ContactPhase {
     /// The block is pressed against this side.
     Pressed(Side),
     /// N = 0, and the friction of the preload acts between the faces (theory, section 3: preload gap). Of
-    /// redundant guides, the contact is open (section 10).
+    /// redundant guides, the contact is open (section 10), and of contacts that may lift off (section 12).
     PreloadGap,
 }
 
@@ -139,6 +139,9 @@ impl ContactPhase {
     pub(crate) fn options_of_face(is_positive: bool) -> &'static [Self] {
         if is_positive { &Self::POSITIVE_FACE } else { &Self::ALL[1..] }
     }
+
+    /// What a contact that may lift off does while it is closed.
+    pub(crate) const CLOSED: &'static [Self] = &[Self::Pressed(Side::Positive)];
 
     const POSITIVE_FACE: [Self; 2] = [Self::Pressed(Side::Positive), Self::PreloadGap];
     const ALL: [Self; 3] = [Self::Pressed(Side::Positive), Self::Pressed(Side::Negative), Self::PreloadGap];

@@ -17,6 +17,9 @@ impl SolveReport {
             let found = if states == "1" { "one solution" } else { &format!("{states} solutions") };
             return format!("Not decided: the search is not finished; so far it found {found}. {MORE_TIME}");
         }
+        if let Some(start) = self.start_in_words() {
+            return start;
+        }
         match self.status {
             Status::None => match self.tipping() {
                 Some(tipping) => format!("No answer: {}.", tipping.in_words()),
@@ -35,6 +38,37 @@ impl SolveReport {
                     .to_owned()
             }
         }
+    }
+
+    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
+    fn start_in_words(&self) -> Option<String> {
+        let starts = |solution: &Solution| {
+            let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
+            joints.map(|joint| format!("{}: {}", joint.name, joint.mode)).collect::<Vec<_>>().join("; ")
+        };
+        if self.at_rest.is_empty() {
+            return None;
+        }
+        let unique = if self.every_load_has_one_state == Some(true) {
+            " Every load has exactly one state."
+        } else {
+            ""
+        };
+        Some(match (self.status, self.solutions.as_slice()) {
+            (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
+            (Status::One, [only]) => format!("It starts in one way. {}.{unique}", starts(only)),
+            (Status::Several, several) => {
+                let ways: Vec<String> = several.iter().map(starts).collect();
+                format!("It can start in {} ways. {}.", several.len(), ways.join(". Or "))
+            }
+            _ => {
+                let also = match self.solutions.len() {
+                    0 => String::new(),
+                    more => format!(" {more} more states are determined."),
+                };
+                format!("The contacts at rest leave their forces open: `hold` has their ranges.{also}")
+            }
+        })
     }
 
     /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667 (2.222 times this

@@ -63,6 +63,9 @@ impl Rows {
             if let Some(share) = contact.preload_share {
                 row("contact", &contact.name, "preload_share", share, "");
             }
+            if let Some(acceleration) = contact.gap_acceleration {
+                row("contact", &contact.name, "gap_acceleration", acceleration, "m/s^2");
+            }
         }
         for hinge in &solution.hinges {
             row("hinge", &hinge.name, "force_x", hinge.force[0], "N");

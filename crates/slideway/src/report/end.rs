@@ -19,6 +19,10 @@ pub enum ModeEndCause {
     WithoutBound,
     /// A normal force vanishes: a contact changes side.
     SideChange,
+    /// A normal force vanishes: a contact that was closed lifts off.
+    LiftsOff,
+    /// The acceleration of a gap vanishes: a contact that opened stays closed.
+    Touches,
     /// A preload gap closes.
     GapCloses,
     /// A guided slider tips.
@@ -47,6 +51,8 @@ impl ModeEndCause {
             Self::Locking => "locking",
             Self::WithoutBound => "grows without bound",
             Self::SideChange => "side change",
+            Self::LiftsOff => "lifts off",
+            Self::Touches => "touches",
             Self::GapCloses => "gap closes",
             Self::Tipping => "tipping",
             Self::GreatestReaction => "greatest reaction",
@@ -60,9 +66,17 @@ impl ModeEndCause {
 }
 
 impl ModeEndCause {
-    /// The cause of an end beyond which there is no solution at all, or another one.
-    pub(crate) fn new(cause: &EndCause, nothing_is_left: bool) -> Self {
+    /// The cause of an end beyond which there is no solution at all, or another one; `closed` says of a contact that may
+    /// lift off whether it is closed in the mode.
+    pub(crate) fn new(
+        cause: &EndCause,
+        nothing_is_left: bool,
+        closed: impl Fn(usize) -> Option<bool>,
+    ) -> Self {
+        let all = |contacts: &[usize], state| contacts.iter().all(|&k| closed(k) == Some(state));
         match cause {
+            EndCause::SideChange(contacts) if all(contacts, true) => Self::LiftsOff,
+            EndCause::SideChange(contacts) if all(contacts, false) => Self::Touches,
             EndCause::Range => Self::Range,
             EndCause::Singular if nothing_is_left => Self::Locking,
             EndCause::Singular => Self::WithoutBound,

@@ -118,6 +118,12 @@ pub struct SolveReport {
     pub state: Vec<CoordinateState>,
     /// The coordinates whose rates the model does not give: they are taken as zero.
     pub rates_not_given: Vec<String>,
+    /// The joints that may lift off and do not slide in the state: each solution says how they start. Absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub at_rest: Vec<String>,
+    /// Whether every load has exactly one state, where contacts that may lift off rest and nothing slides. Absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub every_load_has_one_state: Option<bool>,
     /// Time of the state (s).
     pub time: f64,
     /// In how many steps the positions were followed from the drawing, each proven to stay on its assembly
@@ -595,6 +601,9 @@ pub struct Contact {
     /// towards +n (m); within its play where the contact is open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deflection: Option<f64>,
+    /// Of a contact that lifts off, whose `side` is -1: the acceleration of its gap (m/s^2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap_acceleration: Option<f64>,
 }
 
 /// The contact mode of a sliding joint.

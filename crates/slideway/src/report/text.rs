@@ -460,6 +460,10 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
         ModeEndCause::WithoutBound => "its forces grow without limit".to_owned(),
         ModeEndCause::SideChange if margin.contacts.len() > 1 => format!("{contacts} change side"),
         ModeEndCause::SideChange => format!("{contacts} changes side"),
+        ModeEndCause::LiftsOff if margin.contacts.len() > 1 => format!("{contacts} lift off"),
+        ModeEndCause::LiftsOff => format!("{contacts} lifts off"),
+        ModeEndCause::Touches if margin.contacts.len() > 1 => format!("{contacts} stay closed"),
+        ModeEndCause::Touches => format!("{contacts} stays closed"),
         ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
         ModeEndCause::Fold => "it merges with another solution".to_owned(),
         ModeEndCause::HingeUnloaded => "the force of a hinge vanishes".to_owned(),
@@ -499,7 +503,8 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
     let has_pad = contacts.iter().any(|contact| contact.pressure.is_some());
     let has_share = contacts.iter().any(|contact| contact.preload_share.is_some());
     let has_deflection = contacts.iter().any(|contact| contact.deflection.is_some());
-    let length = units.of("m");
+    let has_opened = contacts.iter().any(|contact| contact.gap_acceleration.is_some());
+    let (length, acceleration) = (units.of("m"), units.of("m/s^2"));
     let deflections = contacts.iter().filter_map(|contact| contact.deflection);
     let greatest_deflection = deflections.fold(0.0_f64, |most, value| most.max(value.abs()));
     let greatest_pressure = contacts.iter().filter_map(|contact| contact.pressure).fold(0.0, f64::max);
@@ -509,6 +514,7 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
     header.extend(has_pad.then(|| pressure.title("pressure")));
     header.extend(has_share.then(|| "preload share at +".to_owned()));
     header.extend(has_deflection.then(|| length.title("deflection")));
+    header.extend(has_opened.then(|| acceleration.title("gap acceleration")));
     let optional =
         |value: Option<f64>, unit: &Unit| value.map_or(String::new(), |value| unit.against(value, scale));
     let row = |contact: &Contact| {
@@ -526,6 +532,10 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
         row.extend(has_deflection.then(|| {
             contact.deflection.map_or(String::new(), |value| length.against(value, greatest_deflection))
         }));
+        row.extend(
+            has_opened
+                .then(|| contact.gap_acceleration.map_or(String::new(), |value| acceleration.number(value))),
+        );
         row
     };
     (header, contacts.iter().map(row).collect())

@@ -16,7 +16,7 @@ use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
-use crate::kinetics::{KineticEquations, Reaction};
+use crate::kinetics::{KineticEquations, Reaction, gap_acceleration};
 use crate::law::tips;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
@@ -149,6 +149,8 @@ impl<'a> Answer<'a> {
             model: self.model(),
             state: self.state(),
             rates_not_given: Vec::new(),
+            at_rest: Vec::new(),
+            every_load_has_one_state: None,
             time: self.configuration.time,
             steps_from_drawing: self.configuration.steps_from_drawing(),
             patterns: None,
@@ -404,6 +406,8 @@ impl<'a> Answer<'a> {
         unknowns: &DVector<f64>,
         friction: &[ContactFriction],
     ) -> Vec<Residual> {
+        let mut normal_force = state.normal_force.clone();
+        self.mechanism.put_out_of_open(state.pattern, normal_force.as_mut_slice(), 0.0);
         let balance = Balance {
             mechanism: self.mechanism,
             configuration: self.configuration,
@@ -411,7 +415,7 @@ impl<'a> Answer<'a> {
             applied: &self.equations.applied,
             layout: self.influence.layout(),
             unknowns,
-            normal_force: state.normal_force,
+            normal_force: &normal_force,
             friction,
             hinges: state.hinges,
         };
@@ -428,6 +432,11 @@ impl<'a> Answer<'a> {
         let normal_forces = at_faces(state.normal_force.iter().copied().collect());
         let friction = at_faces(friction.iter().map(|friction| friction.total()).collect());
         let bounds = self.bounds(state);
+        let acceleration = |k: usize| {
+            let state = (ContactId(k), unknowns);
+            gap_acceleration(self.mechanism, self.configuration, &self.equations.contacts, state)
+        };
+        let opens = |k: usize| self.mechanism.contacts[k].opens && state.pattern[k] == ContactState::Negative;
         let one = |k: usize| {
             let contact = &self.mechanism.contacts[k];
             report::Contact {
@@ -442,6 +451,7 @@ impl<'a> Answer<'a> {
                 pressure: contact.pressure(normal_forces[k]),
                 preload_share: state.shares[k].filter(|_| self.mechanism.preload_jumps(ContactId(k))),
                 deflection: self.deflection(state, &normal_forces, k),
+                gap_acceleration: opens(k).then(|| acceleration(k)),
             }
         };
         (0..state.pattern.len()).map(one).collect()
@@ -581,10 +591,11 @@ impl<'a> Answer<'a> {
             let eta = self.influence.eta(side);
             eta.row_iter().map(|row| row.iter().copied().collect()).collect()
         };
+        let without_friction = self.data().without_friction();
         report::InfluenceSummary {
-            coordinate_accelerations: self.equations.coordinate_accelerations(&self.influence.frictionless),
+            coordinate_accelerations: self.equations.coordinate_accelerations(&without_friction),
             normal_forces: self.influence.normal_forces().iter().copied().collect(),
-            drives: self.drives(&self.influence.frictionless),
+            drives: self.drives(&without_friction),
             eta_positive: rows(0),
             eta_negative: rows(1),
         }

@@ -64,7 +64,7 @@ pub(super) fn add(
     for solution in report.solutions.iter_mut().chain(&mut report.preload_gap_states) {
         let margin = |mode: &ModeInterval| {
             let nothing_is_left = nothing_is_left(&all.counts, mode.to.at, false, is_same_end);
-            mode_margin(mechanism, &mode.to, nothing_is_left)
+            mode_margin(mechanism, (&mode.pattern, &mode.to), nothing_is_left)
         };
         solution.margin = all.end_of(&solution.pattern).map(margin);
     }
@@ -249,14 +249,20 @@ impl Growth {
 }
 
 /// The factor of friction at which a mode ends, and what ends it.
-pub(super) fn mode_margin(mechanism: &Mechanism, end: &ModeEnd, nothing_is_left: bool) -> report::ModeMargin {
+pub(super) fn mode_margin(
+    mechanism: &Mechanism,
+    (pattern, end): (&[ContactState], &ModeEnd),
+    nothing_is_left: bool,
+) -> report::ModeMargin {
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
     let cause = &end.cause;
     let ends_with = match cause {
         EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
-        cause => report::ModeEndCause::new(cause, nothing_is_left),
+        cause => {
+            report::ModeEndCause::new(cause, nothing_is_left, |contact| mechanism.is_closed(pattern, contact))
+        }
     };
     let contacts = match cause {
         EndCause::SideChange(contacts)

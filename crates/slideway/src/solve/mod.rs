@@ -33,6 +33,7 @@ mod margins;
 mod mode_problem;
 mod no_sliding;
 mod parts;
+mod resting;
 mod sharing;
 mod stages;
 mod standing;
@@ -42,6 +43,7 @@ mod trail;
 mod uncertainty;
 mod words;
 
+pub(crate) use attainability::Closed;
 pub(crate) use between_faces::states_between_faces;
 pub use blocks::exact_block_problem;
 pub(crate) use blocks::{BlockState, LastSolution, block_states, check_hinges, never_turning};
@@ -56,6 +58,7 @@ pub(crate) use mode_problem::{
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
+pub(crate) use resting::sliding_or_resting;
 pub(crate) use sharing::load_sharing;
 pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
@@ -150,6 +153,12 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
+    if let Some(mut report) = resting::of_mechanism(&mechanism, &configuration)? {
+        report.open.extend(taken_at_the_middle(&model.ranges()?));
+        report.rates_not_given = rates_not_given(model);
+        report.suit_units();
+        return finite(report);
+    }
     let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
     let state = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
     answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
@@ -184,9 +193,8 @@ fn answered(
         } else {
             standing::of_contacts(stages, equations)?
         };
-        if !ranges.is_empty() && report.uncertainty.is_none() {
-            let taken = "parameters known within bounds are taken at the middle of their ranges";
-            report.open.push(taken.to_owned());
+        if report.uncertainty.is_none() {
+            report.open.extend(taken_at_the_middle(ranges));
         }
         report.rates_not_given = rates_not_given(model);
         if options.margins {
@@ -250,6 +258,12 @@ fn searched(
 fn rates_not_given(model: &Model) -> Vec<String> {
     let not_given = model.coordinates.iter().filter(|coordinate| coordinate.rate.is_none());
     not_given.map(|coordinate| coordinate.name.to_string()).collect()
+}
+
+/// That ranges are not followed, if there are some.
+fn taken_at_the_middle(ranges: &[ParameterRange]) -> Option<String> {
+    let taken = "parameters known within bounds are taken at the middle of their ranges";
+    (!ranges.is_empty()).then(|| taken.to_owned())
 }
 
 /// The middle of each range, as the only value.

@@ -3,10 +3,11 @@
 use super::no_sliding::why;
 use super::parts::Parts;
 use super::sharing::check_assembly;
+use super::tolerant::StatesWithinTolerances;
 use crate::configuration::{Configuration, staying};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{ContactId, JointId};
-use crate::influence::Influence;
+use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
@@ -14,9 +15,10 @@ use crate::modes::blocks::BlockProblem;
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
 use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
+use crate::progress::Progress;
 use crate::sharing::{shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
-use std::ops::Range;
+use std::ops::{ControlFlow, Range};
 
 /// Velocities of sliding and turning below this multiple of the greatest velocity count as zero.
 pub(super) const AT_REST: f64 = 1e-12;
@@ -173,12 +175,39 @@ impl ProblemData<'_> {
                 velocity_signs: velocity_signs.clone(),
                 frictionless: DVector::from_fn(rows, |row, _| without_friction(row)),
                 shared: shared_load(mechanism, self_stress)?,
+                one_sided: influence.one_sided(|opening| {
+                    DVector::from_fn(rows, |row, _| {
+                        let part = entry(row, opening);
+                        if row < own.len() && part.abs() <= NO_INFLUENCE { 0.0 } else { part }
+                    })
+                }),
             },
             couples: DMatrix::from_fn(rows, hinges.len(), |row, hinge| {
                 entry(row, &influence.couples[hinges[hinge].circle])
             }),
             hinges: hinges.iter().map(|hinge| (*hinge, mechanism.friction_circles[hinge.circle])).collect(),
         })
+    }
+
+    /// All unknowns without friction and preloads. Contacts that would have to pull lift off then, so that these are those of
+    /// the only state without friction; of the closed contacts if drives leave none or several.
+    pub(crate) fn without_friction(self) -> DVector<f64> {
+        let closed = &self.influence.frictionless;
+        if self.mechanism.one_sided().next().is_none() {
+            return closed.clone();
+        }
+        let mut smooth = self.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|_| 0.0);
+        smooth.contacts.iter_mut().for_each(|contact| contact.preload = [0.0; 2]);
+        let none = vec![ContactFriction::default(); smooth.contacts.len()];
+        let found = ProblemData { mechanism: &smooth, ..self }.problem().ok().and_then(|problem| {
+            let mut goes_on = |_: &Progress| ControlFlow::Continue(());
+            StatesWithinTolerances::of(&problem, &smooth.excess.open, &mut goes_on)
+        });
+        match found.as_ref().map(|found| found.states.as_slice()) {
+            Some([state]) => self.influence.unknowns(&none, &state.force),
+            _ => closed.clone(),
+        }
     }
 
     /// The mode problem.

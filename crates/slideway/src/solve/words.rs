@@ -40,6 +40,10 @@ pub(crate) fn joint_mode_in_words(
     tangent: Vector2<f64>,
     signs: &[i8],
 ) -> String {
+    let guide = GuideInWords { tangent, around: slider.around };
+    if slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens) {
+        return guide.on_face(signs);
+    }
     if !slider.contacts.iter().any(|contact| mechanism.excess.shares(*contact)) {
         return mode_in_words(slider, tangent, signs);
     }
@@ -65,7 +69,6 @@ pub(crate) fn joint_mode_in_words(
     {
         return mode_in_words(slider, tangent, &[*front, *rear]);
     }
-    let guide = GuideInWords { tangent, around: slider.around };
     let place = |sign: Option<i8>| match (slider.kind, sign) {
         (_, Some(0)) => "open".to_owned(),
         (SliderKind::Pin, Some(sign)) => format!("on the {} side of the slot", guide.face(sign)),
@@ -119,6 +122,20 @@ impl GuideInWords {
     fn is_vertical(&self) -> bool {
         // A guide at exactly 45 degrees, within rounding, counts as horizontal.
         self.tangent.y.abs() > self.tangent.x.abs() * (1.0 + 1e-9)
+    }
+
+    /// What a corner or a block does on a face that it may leave.
+    fn on_face(&self, signs: &[i8]) -> String {
+        match signs {
+            [-1] | [-1, -1] => "opens".to_owned(),
+            [0] | [0, 0] => "without contact force".to_owned(),
+            [_] | [0 | 1, 0 | 1] => "closed".to_owned(),
+            [front, ..] => {
+                let [stays, opens] = if *front < 0 { [-1.0, 1.0] } else { [1.0, -1.0] };
+                format!("on its {} corner, the {} one opens: it tips", self.end(stays), self.end(opens))
+            }
+            [] => String::new(),
+        }
     }
 
     fn flat(&self, sign: i8) -> String {

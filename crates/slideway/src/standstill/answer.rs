@@ -2,7 +2,7 @@
 
 use super::TOLERANCE;
 use super::report::{
-    CoordinateRange, HoldReport, HoldVerdict, LoadReport, Range, Release, Threshold, Wedging,
+    CoordinateRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release, Threshold, Wedging,
 };
 use super::text::{greatest, words};
 use crate::units::number::brief;
@@ -63,12 +63,30 @@ fn moves(report: &HoldReport) -> String {
         (least == greatest).then(|| format!(" ({}: {least})", only.name))
     };
     match report.releases.as_slice() {
+        [only] if !only.gaps.is_empty() => format!("It does not hold: {}.", lifts(only)),
         [only] => {
             let starts = if only.joints.iter().any(|joint| joint.slip != 0) { "slide" } else { "move" };
             format!("It does not hold: it starts to {starts}{}.", acceleration(only).unwrap_or_default())
         }
-        several => format!("It does not hold: it starts to slide, in one of {} ways.", several.len()),
+        several => {
+            let slides = several.iter().all(|release| release.gaps.is_empty());
+            let starts = if slides { "slide" } else { "move" };
+            format!("It does not hold: it starts to {starts}, in one of {} ways.", several.len())
+        }
     }
+}
+
+/// "it tips over base.rear and slides", "head lifts off"
+fn lifts(release: &Release) -> String {
+    let words = |joint: &JointRelease| match joint.words.strip_prefix("tips over ") {
+        Some(over) => {
+            let corner = over.split_once(", ").map_or(over, |(corner, _)| corner);
+            format!("it tips over {corner}{}", if joint.slip == 0 { "" } else { " and slides" })
+        }
+        None => format!("{} {}", joint.name, joint.words),
+    };
+    let lifting = release.joints.iter().filter(|joint| !joint.open.is_empty());
+    lifting.map(words).collect::<Vec<_>>().join(", ")
 }
 
 /// Whether every load that is great enough is held by itself: it cannot slide, whether or not it was wedged before.

@@ -1,14 +1,24 @@
-//! Which way every joint may begin to move: the signs that sliding and turning take over all motions.
+//! Which way every joint may begin to move: the signs that sliding and turning take over all motions. Of contacts that may
+//! lift off each set of open ones leaves motions of its own, those that open all their gaps.
 //!
 //! Of `n` motions that joints and drives leave, the signs of `m` joints are those of `m` linear functions on `R^n`: far
 //! fewer than `3^m` of a closed loop, whose joints move together.
 
 use super::TOLERANCE;
+use super::held_motions;
 use super::setup::Setup;
 use super::state::Pattern;
 use crate::configuration::null_space;
 use crate::pattern::{Affine, JointPhase, Region};
 use nalgebra::{DMatrix, RowDVector};
+
+/// How joints may begin to move together.
+pub(super) struct Direction {
+    /// What joints and hinges do; its contacts are left out. A joint that lifts off as a whole sticks.
+    pub(super) signs: Pattern,
+    /// The contacts that lift off.
+    pub(super) open: Vec<usize>,
+}
 
 /// The motions that go on from some joints' signs: any combination of the columns of `motions`.
 #[derive(Clone)]
@@ -30,23 +40,48 @@ pub(super) fn most_directions(motions: usize, joints: usize) -> u64 {
     sum
 }
 
-/// What joints and hinges do in some motion, their contacts left out; the motions are one in each column.
-pub(super) fn directions(setup: &Setup, motions: &DMatrix<f64>) -> Vec<Pattern> {
-    let rows = rows(setup);
-    let mut branches = vec![Branch { signs: Vec::new(), motions: motions.clone() }];
-    for row in &rows {
+/// What joints and hinges do in some motion, with every set of contacts that may lift off.
+pub(super) fn directions(setup: &Setup) -> Vec<Direction> {
+    openings(setup).into_iter().flat_map(|open| directions_while(setup, &open)).collect()
+}
+
+/// All sets of contacts that may lift off together, the empty one first.
+fn openings(setup: &Setup) -> Vec<Vec<usize>> {
+    let with = |sets: Vec<Vec<usize>>, contact: usize| {
+        let larger: Vec<Vec<usize>> =
+            sets.iter().map(|set| set.iter().copied().chain([contact]).collect()).collect();
+        [sets, larger].concat()
+    };
+    setup.one_sided().into_iter().fold(vec![Vec::new()], with)
+}
+
+/// What joints and hinges do in some motion in which these contacts lift off.
+fn directions_while(setup: &Setup, open: &[usize]) -> Vec<Direction> {
+    let mut rows = rows(setup);
+    for (slider, row) in setup.sliders.iter().zip(&mut rows) {
+        // What lifts off as a whole has no friction that a direction decides.
+        if !slider.contacts.is_empty() && slider.contacts.iter().all(|contact| open.contains(contact)) {
+            row.fill(0.0);
+        }
+    }
+    let moving = rows.len();
+    rows.extend(open.iter().map(|&k| setup.gap_row(k) / setup.units.length));
+    let mut branches = vec![Branch { signs: Vec::new(), motions: held_motions(setup, open) }];
+    for (index, row) in rows.iter().enumerate() {
         branches = branches.iter().flat_map(|branch| extended(&rows, row, branch)).collect();
+        branches.retain(|branch| index < moving || branch.signs[index] > 0.0);
     }
     let phase = |sign: &f64| JointPhase::of_sign(*sign);
-    let pattern = |branch: Branch| {
-        let (joints, hinges) = branch.signs.split_at(setup.sliders.len());
-        Pattern {
+    let direction = |branch: Branch| {
+        let (joints, hinges) = branch.signs[..moving].split_at(setup.sliders.len());
+        let signs = Pattern {
             joints: joints.iter().map(phase).collect(),
             hinges: hinges.iter().map(phase).collect(),
             contacts: Vec::new(),
-        }
+        };
+        Direction { signs, open: open.to_vec() }
     };
-    branches.into_iter().map(pattern).collect()
+    branches.into_iter().map(direction).collect()
 }
 
 /// How each sliding joint and hinge with friction moves with the bodies, in units in which motions are of order one.

@@ -58,22 +58,21 @@ mod turning;
 mod words;
 
 pub use report::{
-    AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, HingeRange, HoldReport,
-    HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Wedging,
+    AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, GapRange, HingeRange,
+    HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Wedging,
 };
 
-use crate::configuration::{free_motions, motions_without_inertia, unit};
+use crate::configuration::{motions_without_inertia, unit};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::sharing::load_sharing;
-use directions::{directions, most_directions};
+use directions::{Direction, directions, most_directions};
 use nalgebra::DMatrix;
 use rest::Over;
 use setup::Setup;
-pub(crate) use state::Pattern;
 use state::side_options;
 
 /// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations
@@ -205,10 +204,9 @@ pub(crate) struct Beginning {
 
 impl Beginning {
     fn new(setup: &Setup, is_held: bool, work: Work<'_>) -> Self {
-        let motions = held_motions(setup);
-        let motions_without_inertia = undriven_without_inertia(setup, &motions);
+        let motions_without_inertia = undriven_without_inertia(setup);
         let has_inertia = motions_without_inertia.is_empty();
-        let directions = if has_inertia { directions(setup, &motions) } else { Vec::new() };
+        let directions = if has_inertia { directions(setup) } else { Vec::new() };
         let releases = release::releases(setup, &directions, is_held, work.part(0, 2));
         let verdict = if has_inertia {
             let moves = !releases.found.is_empty();
@@ -324,7 +322,13 @@ fn check_states(setup: &Setup, most: u64) -> Result<usize, Faults> {
     // More motions than joints make no more states, which spares most mechanisms the search for their
     // motions.
     let at_most = of_motions(joints);
-    let states = if at_most <= most { at_most } else { of_motions(held_motions(setup).ncols()) };
+    let one_sided = setup.one_sided();
+    let openings = u32::try_from(one_sided.len()).ok().and_then(|count| 2_u64.checked_pow(count));
+    let with_openings = |states: u64| states.saturating_mul(openings.unwrap_or(u64::MAX));
+    let states = match with_openings(at_most) {
+        states if states <= most => states,
+        _ => with_openings(of_motions(held_motions(setup, &one_sided).ncols())),
+    };
     match usize::try_from(sides) {
         Ok(sides) if states <= most => Ok(sides),
         _ => Err(Fault::general(FaultKind::TooManyStates { states, limit: most }).into()),
@@ -373,8 +377,7 @@ fn verdict(holds: bool, moves: bool, slips_against_static_friction: impl FnOnce(
 
 /// [`slips_against_static_friction`] in any direction, with an inertia for whatever has none.
 fn slides_with_inertia(setup: &Setup, work: Work<'_>) -> bool {
-    let slides =
-        |setup: &Setup| slips_against_static_friction(setup, &directions(setup, &held_motions(setup)), work);
+    let slides = |setup: &Setup| slips_against_static_friction(setup, &directions(setup), work);
     with_inertia(setup).is_ok_and(|setup| slides(&setup))
 }
 
@@ -383,12 +386,12 @@ fn slides_with_inertia(setup: &Setup, work: Work<'_>) -> bool {
 /// # Errors
 /// As [`Setup::new`].
 fn with_inertia(setup: &Setup) -> Result<Setup, Faults> {
-    let has_inertia = undriven_without_inertia(setup, &held_motions(setup)).is_empty();
+    let has_inertia = undriven_without_inertia(setup).is_empty();
     if has_inertia { Ok(setup.clone()) } else { setup.with_inertia() }
 }
 
 /// Whether it begins to slide even where kinetic friction is as great as static friction.
-fn slips_against_static_friction(setup: &Setup, directions: &[Pattern], work: Work<'_>) -> bool {
+fn slips_against_static_friction(setup: &Setup, directions: &[Direction], work: Work<'_>) -> bool {
     let mut rough = setup.clone();
     for contact in &mut rough.mechanism.contacts {
         contact.mu = contact.mu_static;
@@ -418,14 +421,15 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
     names.filter(|name| holding == options.hold_drives && !is_load(name)).collect()
 }
 
-/// Motions that the joints leave and that have no kinetic energy, unless drives hold them.
-fn undriven_without_inertia(setup: &Setup, motions: &DMatrix<f64>) -> Vec<String> {
-    motions_without_inertia(&setup.mechanism, &setup.configuration, motions, &setup.loads())
+/// Motions that the joints leave once all lifts off that may, and that have no kinetic energy, unless drives hold them.
+fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
+    let motions = held_motions(setup, &setup.one_sided());
+    motions_without_inertia(&setup.mechanism, &setup.configuration, &motions, &setup.loads())
 }
 
-/// The motions that joints and drives leave, one in each column.
-fn held_motions(setup: &Setup) -> DMatrix<f64> {
-    let motions = free_motions(&setup.mechanism, &setup.configuration);
+/// The motions that joints and drives leave, one in each column, with these contacts open.
+fn held_motions(setup: &Setup, open: &[usize]) -> DMatrix<f64> {
+    let motions = setup.free_motions(open);
     let drives = setup.mechanism.drives.len();
     if drives == 0 || motions.is_empty() {
         return motions;

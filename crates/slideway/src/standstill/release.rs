@@ -1,12 +1,13 @@
 //! States in which a mechanism begins to move: every joint sticks or slips one way or the other.
 
+use super::directions::Direction;
 use super::reactions::{range, reactions};
-use super::report::{CoordinateRange, JointRelease, Range, Release};
+use super::report::{CoordinateRange, GapRange, JointRelease, Range, Release};
 use super::rest::{Over, possible, static_friction, symbols, until_over};
 use super::setup::{Setup, SlidingJoint};
 use super::state::{Pattern, State, StateQuestion, sides};
 use super::turning::{TurningState, TurningStates, turning_states};
-use super::words::slip_in_words;
+use super::words::release_in_words;
 use super::{TOLERANCE, held_motions};
 use crate::configuration::unit;
 use crate::pattern::{JointPhase, Region, Unsolved, direction};
@@ -22,16 +23,16 @@ const SAME: f64 = 1e-7;
 /// without friction alone.
 pub(super) fn releases(
     setup: &Setup,
-    directions: &[Pattern],
+    directions: &[Direction],
     at_rest: bool,
     work: Work<'_>,
 ) -> Over<Vec<Release>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
-    let motions = held_motions(setup);
+    let motions = held_motions(setup, &[]);
     let all = directions.len();
-    for (index, signs) in directions.iter().enumerate() {
+    for (index, Direction { signs, open }) in directions.iter().enumerate() {
         let mut joints = signs.joints.iter().chain(&signs.hinges);
-        if at_rest && joints.all(|joint| *joint == JointPhase::Sticking) {
+        if at_rest && open.is_empty() && joints.all(|joint| *joint == JointPhase::Sticking) {
             continue;
         }
         let work = work.part(index, all);
@@ -42,7 +43,7 @@ pub(super) fn releases(
             }
             continue;
         }
-        for (sides, piece) in until_over(sides(setup), work) {
+        for (sides, piece) in until_over(sides(setup, open), work) {
             over.note(setup, released(setup, &Pattern { contacts: sides, ..signs.clone() }, piece));
         }
     }
@@ -50,7 +51,7 @@ pub(super) fn releases(
 }
 
 /// Whether something begins to move in one of these directions in which a joint slips.
-pub(super) fn is_released(setup: &Setup, directions: &[Pattern], work: Work<'_>) -> bool {
+pub(super) fn is_released(setup: &Setup, directions: &[Direction], work: Work<'_>) -> bool {
     let all = directions.len();
     (0..all).any(|at| !releases(setup, &directions[at..=at], true, work.part(at, all)).found.is_empty())
 }
@@ -64,10 +65,14 @@ impl Over<Vec<Release>> {
     }
 }
 
-/// The states with these signs if hinges turn in them, the friction of what sticks is determined and guides share no load, so
-/// that their forces are isolated: then the search of the block mode problem finds all of them, or says that it does not.
+/// The states with these signs if hinges turn in them, the friction of what sticks is determined, guides share no load and
+/// nothing may lift off, so that their forces are isolated: then the search of the block mode problem finds all of them, or says that it does not.
 fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'_>) -> Option<TurningStates> {
-    if setup.shared.is_some() || signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking) {
+    let may_lift_off = setup.mechanism.one_sided().next().is_some();
+    if setup.shared.is_some()
+        || may_lift_off
+        || signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking)
+    {
         return None;
     }
     let states = turning_states(setup, signs, motions, &mut |told| work.tell(told))?;
@@ -108,6 +113,8 @@ fn release(
 ) -> Result<Option<Release>, Unsolved> {
     let Some(region) = possible(region)? else { return Ok(None) };
     let Some(region) = really_slipping(setup, state, region)? else { return Ok(None) };
+    let open: Vec<usize> = state.open().collect();
+    let name = |k: usize| setup.mechanism.contacts[k].name.to_string();
     let of_joint = |(index, slider): (usize, &SlidingJoint)| {
         let expression = state.sliding_acceleration(index);
         let (slip, acceleration) = match pattern.joints[index] {
@@ -120,8 +127,9 @@ fn release(
         Ok(JointRelease {
             name: setup.mechanism.joints[slider.joint.index()].name.to_string(),
             slip,
-            words: slip_in_words(setup, slider.joint, slip),
+            words: release_in_words(setup, slider, &pattern.contacts, slip),
             acceleration,
+            open: slider.contacts.iter().filter(|&&k| open.contains(&k)).map(|&k| name(k)).collect(),
         })
     };
     let joints = setup.sliders.iter().enumerate().map(of_joint).collect::<Result<_, _>>()?;
@@ -129,9 +137,18 @@ fn release(
     Ok(Some(Release {
         joints,
         patterns: vec![symbols(setup, pattern, &reactions)],
+        gaps: open.iter().map(|&k| gap(setup, state, &region, k)).collect::<Result<_, _>>()?,
         coordinates: coordinates(setup, state, &region)?,
         reactions,
     }))
+}
+
+/// How a contact lifts off.
+fn gap(setup: &Setup, state: &State<'_>, region: &Region<'_>, k: usize) -> Result<GapRange, Unsolved> {
+    Ok(GapRange {
+        contact: setup.mechanism.contacts[k].name.to_string(),
+        acceleration: range(state, region, &state.gap_acceleration(k), setup.units.acceleration)?,
+    })
 }
 
 /// The region, unless a joint that should slip does not accelerate anywhere in it. Where no joint slips some
@@ -196,7 +213,8 @@ fn coordinates(
 fn add(found: &mut Vec<Release>, release: Release, setup: &Setup) {
     let force = SAME * setup.units.force * setup.units.length.max(1.0);
     let same = |other: &&mut Release| {
-        let slips = other.joints.iter().zip(&release.joints).all(|(a, b)| a.slip == b.slip);
+        let mut joints = other.joints.iter().zip(&release.joints);
+        let slips = joints.all(|(a, b)| a.slip == b.slip && a.open == b.open);
         let motion = other
             .coordinates
             .iter()

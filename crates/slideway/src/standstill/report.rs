@@ -285,6 +285,9 @@ pub struct Release {
     pub joints: Vec<JointRelease>,
     /// The sign patterns of the normal forces with which it is possible; 0 for a contact in its gap, or open.
     pub patterns: Vec<String>,
+    /// The contacts that lift off; absent if none does.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<GapRange>,
     /// Accelerations of the chosen coordinates.
     pub coordinates: Vec<CoordinateRange>,
     /// Reactions.
@@ -302,6 +305,19 @@ pub struct JointRelease {
     /// The same in words.
     pub words: String,
     /// Acceleration of the block against the guide along u (m/s^2).
+    pub acceleration: Range,
+    /// Its contacts that lift off; absent if none does.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub open: Vec<String>,
+}
+
+/// How a contact lifts off.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct GapRange {
+    /// Its name.
+    pub contact: String,
+    /// Acceleration of its gap (m/s^2).
     pub acceleration: Range,
 }
 

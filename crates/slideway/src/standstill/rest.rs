@@ -65,7 +65,7 @@ pub(super) fn until_over<T>(states: Vec<T>, work: Work<'_>) -> impl Iterator<Ite
 pub(super) fn at_rest(setup: &Setup, factor: f64, work: Work<'_>) -> (Over<Option<AtRest>>, bool) {
     let mut over = Over { found: None::<AtRest>, undecided: 0 };
     let mut is_possible = false;
-    for (sides, piece) in until_over(sides(setup), work.part(0, 2)) {
+    for (sides, piece) in until_over(sides(setup, &[]), work.part(0, 2)) {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(Some(factor));
         let Some(state) = State::new(setup, &pattern, question) else { continue };
@@ -112,7 +112,7 @@ fn without_preloads(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> 
 /// could have shown one was not solved.
 pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<bool> {
     let mut undecided = false;
-    for (sides, _) in until_over(sides(setup), work) {
+    for (sides, _) in until_over(sides(setup, &[]), work) {
         let question = StateQuestion::rest(Some(factor));
         let pattern = resting(setup, sides);
         let Some(state) = State::new(setup, &pattern, question) else { continue };
@@ -128,7 +128,7 @@ pub(super) fn is_possible(setup: &Setup, factor: f64, work: Work<'_>) -> Option<
 /// The factors of the varied load that can be held: the union over all patterns.
 pub(super) fn held_factors(setup: &Setup, work: Work<'_>) -> Over<Vec<Range>> {
     let mut over = Over { found: Vec::new(), undecided: 0 };
-    for (sides, _) in until_over(sides(setup), work) {
+    for (sides, _) in until_over(sides(setup, &[]), work) {
         let pattern = resting(setup, sides);
         let question = StateQuestion::rest(None);
         let Some(state) = State::new(setup, &pattern, question) else { continue };

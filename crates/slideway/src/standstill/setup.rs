@@ -2,7 +2,7 @@
 //! is varied apart from all others, and units in which forces, lengths and accelerations are of order one.
 
 use super::HoldOptions;
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, free_motions, null_space};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
@@ -13,7 +13,7 @@ use crate::pattern::{GuidedCouple, Law};
 use crate::progress::Work;
 use crate::report::Elasticity;
 use crate::sharing::{elasticity, shared_load, stress_force};
-use nalgebra::{DVector, DVectorView, RowDVector, Vector2};
+use nalgebra::{DMatrix, DVector, DVectorView, RowDVector, Vector2};
 
 /// Units of the linear programs.
 #[derive(Debug, Clone, Copy)]
@@ -94,7 +94,7 @@ impl Setup {
                 Named::Gravity => mechanism.gravity = Vector2::zeros(),
             }
         }
-        let assembled = Assembled::new(&mechanism, &configuration)?;
+        let assembled = Assembled::at_rest(&mechanism, &configuration)?;
         let given = forces(&mechanism, &assembled);
         let sliders = sliders(&mechanism, &assembled);
         let shared = shared(&mechanism, &assembled)?;
@@ -131,7 +131,7 @@ impl Setup {
         for body in heavy.mechanism.bodies.iter_mut().filter(|body| body.mass == 0.0) {
             (body.mass, body.moment_of_inertia) = (1.0, size * size);
         }
-        heavy.assembled = Assembled::new(&heavy.mechanism, &heavy.configuration)?;
+        heavy.assembled = Assembled::at_rest(&heavy.mechanism, &heavy.configuration)?;
         Ok(heavy)
     }
 
@@ -183,21 +183,63 @@ impl Setup {
         row
     }
 
+    /// The motions that the joints leave with these contacts open, one in each column: (x, y, angle) of every body in m and
+    /// rad.
+    pub(super) fn free_motions(&self, open: &[usize]) -> DMatrix<f64> {
+        if open.is_empty() {
+            return free_motions(&self.mechanism, &self.configuration);
+        }
+        let (all, size) = (self.equations_of_motion(), self.mechanism.size);
+        let scale = DVector::from_fn(all, |column, _| if column % 3 == 2 { 1.0 } else { size });
+        let row = |(index, reaction): (usize, &Reaction)| match reaction {
+            Reaction::Normal(contact) if open.contains(&contact.index()) => None,
+            Reaction::Normal(contact) => Some(self.gap_row(contact.index())),
+            _ => Some(self.assembled.matrix.row(all + index).columns(0, all).into_owned()),
+        };
+        let rows = self.assembled.layout.reactions().iter().enumerate().filter_map(row).map(|row| {
+            let row = row.component_mul(&scale.transpose());
+            &row / row.amax()
+        });
+        let rows: Vec<RowDVector<f64>> = rows.collect();
+        if rows.is_empty() {
+            return DMatrix::from_diagonal(&scale);
+        }
+        DMatrix::from_diagonal(&scale) * null_space(&DMatrix::from_rows(&rows))
+    }
+
+    /// The contacts that may lift off.
+    pub(super) fn one_sided(&self) -> Vec<usize> {
+        self.mechanism.one_sided().map(ContactId::index).collect()
+    }
+
+    /// The acceleration of the gap of a contact, as a row of those of the bodies.
+    pub(super) fn gap_row(&self, k: usize) -> RowDVector<f64> {
+        let (row, _) = self.assembled.gap(ContactId(k)).expect("every contact has a normal force");
+        row.columns(0, self.equations_of_motion()).into_owned()
+    }
+
     /// Number of equations of motion: three for each body.
     pub(super) fn equations_of_motion(&self) -> usize {
         3 * self.mechanism.bodies.len()
     }
 }
 
-/// How redundant guides share their load; none if nothing is in excess.
+/// How redundant guides share their load; none if nothing is in excess, or only what may lift off: such contacts carry
+/// whatever is in equilibrium, as nothing keeps them pressed but loads and friction.
 ///
 /// # Errors
-/// Nothing says how; rigid faces, whose self-stresses are not bounded by anything.
+/// Nothing says how; rigid faces, whose self-stresses are not bounded by anything; guides that share a load with contacts
+/// that may lift off.
 fn shared(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Result<Option<SharedLoad>, Faults> {
     if mechanism.excess.is_empty() {
         return Ok(None);
     }
     let self_stress = assembled.self_stresses(mechanism)?.map(stress_force);
+    let mut sharing = mechanism.contacts.iter().zip(self_stress.row_iter());
+    if sharing.all(|(contact, forces)| contact.opens || forces.iter().all(|force| *force == 0.0)) {
+        return Ok(None);
+    }
+    mechanism.check_one_sided_in_excess()?;
     let elasticity = elasticity(mechanism, &self_stress)?;
     let shared = shared_load(mechanism, self_stress)?;
     match &shared {
@@ -274,7 +316,7 @@ fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> R
     }
     alone.loads.retain(|load| *load.name == *name);
     alone.drives.retain(|drive| *drive.name == *name);
-    let assembled = Assembled::new(&alone, configuration)?;
+    let assembled = Assembled::at_rest(&alone, configuration)?;
     let drive = alone.drives.first().filter(|_| what == Named::Drive);
     let (forces, nominal, unit) = if let Some(drive) = drive {
         let column = assembled.layout.effort(DriveId(0));

@@ -164,7 +164,10 @@ impl Text<'_> {
             self.line(&format!("  {}: {}", joint.name, joint.words));
         }
         self.signs(&release.patterns);
-        let scale = release.coordinates.iter().map(|c| greatest(&[c.acceleration])).fold(0.0, f64::max);
+        let gaps = release.gaps.iter().map(|gap| gap.acceleration);
+        let accelerations: Vec<Range> =
+            release.coordinates.iter().map(|c| c.acceleration).chain(gaps).collect();
+        let scale = greatest(&accelerations);
         let units = &self.report.units;
         let sliding = release.joints.iter().filter(|joint| joint.slip != 0);
         let rows: Vec<Vec<String>> = sliding
@@ -173,6 +176,11 @@ impl Text<'_> {
                 let value = words(joint.acceleration, scale, &unit);
                 vec![joint.name.clone(), "sliding".to_owned(), value, unit.name().to_owned()]
             })
+            .chain(release.gaps.iter().map(|gap| {
+                let unit = units.of("m/s^2");
+                let value = words(gap.acceleration, scale, &unit);
+                vec![gap.contact.clone(), "gap".to_owned(), value, unit.name().to_owned()]
+            }))
             .chain(release.coordinates.iter().map(|coordinate| {
                 let unit = units.of(coordinate.unit);
                 let value = words(coordinate.acceleration, scale, &unit);

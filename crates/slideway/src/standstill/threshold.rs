@@ -23,7 +23,7 @@ use super::report::{Coefficients, Threshold};
 use super::rest::{Over, resting, static_friction, until_over};
 use super::setup::Setup;
 use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
-use super::{HoldOptions, held_motions, with_inertia};
+use super::{HoldOptions, with_inertia};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
 use crate::mechanism::FrictionCircle;
@@ -149,7 +149,10 @@ fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Fault
 
 fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Option<f64>>) -> Threshold {
     let coefficients = value.map_or_else(Vec::new, |value| law.coefficients(value));
-    let named = setup.mechanism.contacts.iter().zip(coefficients);
+    let named = setup.mechanism.contacts.iter().zip(coefficients).map(|(contact, mu_static)| {
+        // A contact that may lift off has one face.
+        (contact, if contact.opens { [mu_static[0]; 2] } else { mu_static })
+    });
     Threshold {
         varied: law.varied.clone(),
         present: law.present,
@@ -169,7 +172,7 @@ fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Optio
 /// # Errors
 /// As [`Setup::new`].
 fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
-    let motions = held_motions(alone);
+    let directions = directions(alone);
     let mut rough = with_inertia(alone)?;
     let mut slides = |value: f64| {
         let StaticFriction { mu, radii } = law.friction(alone, value);
@@ -179,7 +182,7 @@ fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<O
         for (circle, radius) in rough.mechanism.friction_circles.iter_mut().zip(radii) {
             (circle.radius, circle.static_radius) = (radius, radius);
         }
-        is_released(&rough, &directions(&rough, &motions), work)
+        is_released(&rough, &directions, work)
     };
     let (mut below, mut above) = (from, from * (1.0 + NEAR));
     while slides(above) {
@@ -206,7 +209,7 @@ fn least_value(alone: &Setup, law: &Law, question: StateQuestion, work: Work<'_>
     let mut found: Option<f64> = None;
     let mut undecided = 0;
     let mut again = Vec::new();
-    for (sides, piece) in until_over(sides(alone), work.part(0, 2)) {
+    for (sides, piece) in until_over(sides(alone, &[]), work.part(0, 2)) {
         let pattern = resting(alone, sides);
         match least_in(alone, &pattern, law, (question, found), piece) {
             Ok(least) => found = least.or(found),

@@ -180,6 +180,7 @@ impl<'h, 's> Blocks<'h, 's> {
                 velocity_signs: DVector::from_fn(contacts.len(), |k, _| self.sign(k)),
                 frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
                 shared: None,
+                one_sided: Vec::new(),
             },
             couples: answers(
                 self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect(),

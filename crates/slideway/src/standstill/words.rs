@@ -1,13 +1,27 @@
 //! The motion of a sliding joint on release, in words.
 
-use super::setup::Setup;
-use crate::ids::JointId;
+use super::setup::{Setup, SlidingJoint};
+use crate::pattern::ContactPhase;
 use crate::solve::sliding_in_words;
 
-/// "sticks", or "bracket slides along (0, -1)".
-pub(super) fn slip_in_words(setup: &Setup, joint: JointId, slip: i8) -> String {
-    match setup.mechanism.slider(joint).filter(|_| slip != 0) {
-        Some(slider) => sliding_in_words(&setup.mechanism, &setup.configuration, slider, slip),
-        None => "sticks".to_owned(),
+/// "sticks", "bracket slides along (0, -1)", "tips over base.rear", "lifts off"
+pub(super) fn release_in_words(
+    setup: &Setup,
+    joint: &SlidingJoint,
+    contacts: &[ContactPhase],
+    slip: i8,
+) -> String {
+    let slider = setup.mechanism.slider(joint.joint).filter(|_| slip != 0);
+    let slides = slider.map(|slider| sliding_in_words(&setup.mechanism, &setup.configuration, slider, slip));
+    let closed =
+        |k: &&usize| !setup.mechanism.contacts[**k].opens || contacts[**k] != ContactPhase::PreloadGap;
+    let closed: Vec<usize> = joint.contacts.iter().filter(closed).copied().collect();
+    match closed.as_slice() {
+        [] if !joint.contacts.is_empty() => "lifts off".to_owned(),
+        [corner] if joint.contacts.len() > 1 => {
+            let tips = format!("tips over {}", setup.mechanism.contacts[*corner].name);
+            slides.map_or(tips.clone(), |slides| format!("{tips}, {slides}"))
+        }
+        _ => slides.unwrap_or_else(|| "sticks".to_owned()),
     }
 }

@@ -90,7 +90,9 @@ fn ends(mode: &ModeLimits, inside: f64) -> impl Iterator<Item = (f64, Breakpoint
     let cause = |cause: ModeEndCause| match cause {
         ModeEndCause::Locking => Some(Breakpoint::Locking),
         ModeEndCause::WithoutBound => Some(Breakpoint::WithoutBound),
-        ModeEndCause::SideChange => Some(Breakpoint::SideChange),
+        ModeEndCause::SideChange | ModeEndCause::LiftsOff | ModeEndCause::Touches => {
+            Some(Breakpoint::SideChange)
+        }
         ModeEndCause::GapCloses => Some(Breakpoint::GapCloses),
         ModeEndCause::Tipping => Some(Breakpoint::Tipping),
         ModeEndCause::Fold => Some(Breakpoint::Fold),

@@ -24,6 +24,8 @@ pub(super) enum Output {
     Coordinate(usize),
     /// One of the unknowns, with a sign.
     Unknown(usize, f64),
+    /// Acceleration of the gap of a contact that may lift off.
+    Gap(usize),
     /// A number that is no unknown: the friction couple of a hinge, a number within a mode.
     Other,
 }
@@ -159,6 +161,10 @@ impl Columns {
             let unit = if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" };
             let place = layout.effort(DriveId(index));
             self.output(Output::Unknown(place, 1.0), format!("effort.{}", drive.name), unit);
+        }
+        for contact in mechanism.one_sided() {
+            let name = &mechanism.contacts[contact.index()].name;
+            self.output(Output::Gap(contact.index()), format!("gap_acceleration.{name}"), "m/s^2");
         }
         let rough = |index: usize| mechanism.friction_circle(JointId(index)).is_some();
         for index in (0..mechanism.joints.len()).filter(|&index| rough(index)) {

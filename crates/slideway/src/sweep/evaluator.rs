@@ -184,6 +184,10 @@ fn write(
     if !plan.attainability || states.is_empty() {
         return Ok(Writer { plan, mechanism, stages, guides: None, hinges: &[] }.write(states, point, rows));
     }
+    // What lifts off is not there, in each state something else.
+    if mechanism.one_sided().next().is_some() {
+        return Ok(false);
+    }
     let problem = mode_problem(mechanism, &stages.influence, &stages.signs)?;
     let equations = KineticEquations::new(mechanism, &stages.configuration)?;
     let guides = Some(ElasticGuides::new(mechanism, &equations, &problem));

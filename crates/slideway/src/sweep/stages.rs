@@ -4,7 +4,7 @@ use super::columns::{Columns, Output};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::influence::Influence;
-use crate::kinetics::{Accuracy, Influences};
+use crate::kinetics::{Accuracy, Influences, Opening};
 use crate::mechanism::Mechanism;
 use crate::modes::screen::{MOST_CONTACTS, SmallProblem};
 use crate::solve::{Trail, mode_problem, preload_columns, sides, sliding_signs};
@@ -34,6 +34,8 @@ pub(super) struct Stages {
     pub(super) couples: Vec<Vec<f64>>,
     /// Contribution of a unit normal force of each cut contact of redundant guides to the outputs.
     pub(super) self_stresses: Vec<Vec<f64>>,
+    /// The contacts that may lift off, and what their opening adds to the outputs.
+    pub(super) openings: Vec<(usize, Vec<f64>)>,
     /// The greatest applied force (N).
     pub(super) greatest_load: f64,
     /// How well the numbers are known.
@@ -60,7 +62,7 @@ impl Stages {
             let one = |output: &Output| match *output {
                 Output::Coordinate(index) => influences.coordinate(index, unknowns, without_friction),
                 Output::Unknown(place, sign) => sign * unknowns[place],
-                Output::Other => 0.0,
+                Output::Gap(_) | Output::Other => 0.0,
             };
             columns.outputs.iter().map(one).collect()
         };
@@ -69,6 +71,15 @@ impl Stages {
         let per_force = influences.columns.iter().map(per_force).collect();
         let couples = influences.couples.iter().map(|couple| outputs(couple, false)).collect();
         let self_stresses = influences.self_stresses.iter().map(|stress| outputs(stress, false)).collect();
+        let opening = |opening: &Opening| {
+            let mut added = outputs(&opening.answer, false);
+            let own = |output: &Output| *output == Output::Gap(opening.contact);
+            if let Some(own) = columns.outputs.iter().position(own) {
+                added[own] = opening.acceleration;
+            }
+            (opening.contact, added)
+        };
+        let openings = influences.openings.iter().map(opening).collect();
         let (greatest_load, accuracy) = (influences.greatest_load, influences.accuracy());
         let influence = Influence::of(influences);
         let signs = sliding_signs(mechanism, &configuration);
@@ -83,6 +94,7 @@ impl Stages {
             influences: per_force,
             couples,
             self_stresses,
+            openings,
             greatest_load,
             accuracy,
             configuration,
@@ -100,7 +112,7 @@ impl Stages {
         let preload = preload_columns(mechanism, &eta);
         self.eta = [square(&eta.positive), square(&eta.negative)];
         self.eta_preload = [square(&preload.positive), square(&preload.negative)];
-        if mechanism.excess.is_empty() {
+        if mechanism.excess.is_empty() && self.openings.is_empty() {
             for (k, force) in self.influence.normal_forces().iter().enumerate() {
                 (self.columns[0][k][k], self.columns[1][k][k]) = (1.0, -1.0);
                 self.right_hand_side[k] = *force;

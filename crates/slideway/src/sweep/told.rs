@@ -66,6 +66,8 @@ impl Telling<'_> {
         numbers.extend(couples);
         numbers.extend(state.coordinates.iter().map(|coordinate| coordinate.acceleration));
         numbers.extend(state.drives.iter().map(|drive| drive.effort));
+        let may_open = self.plan.mechanism.one_sided().map(|contact| &state.contacts[contact.index()]);
+        numbers.extend(may_open.map(|contact| contact.gap_acceleration.unwrap_or(0.0)));
         let names = &self.plan.mechanism.joints;
         let rough =
             |hinge: &Hinge| columns.hinges.iter().any(|one| names[one.joint.index()].name[..] == hinge.name);

@@ -113,6 +113,12 @@ impl Writer<'_> {
             let force = forces[contact.index()];
             outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
         }
+        for (contact, per_force) in &self.stages.openings {
+            if pattern[*contact] == ContactState::Negative {
+                let force = state.unknowns[*contact];
+                outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
+            }
+        }
         self.add_couples(hinges, outputs);
         for forces in forces.chunks_mut(contacts.max(1)) {
             self.mechanism.put_at_faces(pattern, forces, 0.0, |one, other| one + other);

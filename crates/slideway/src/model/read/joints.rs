@@ -3,9 +3,9 @@
 use super::super::file::{
     CarriedBy, ContactTable, Entry, Fit, PadTable, PreloadLine, SliderTable, StopTable,
 };
-use super::super::quantity::{PerSide, Quantity, Span};
+use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
-use super::super::{Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop};
+use super::super::{Along, Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
@@ -63,26 +63,44 @@ impl Reader<'_> {
     }
 
     fn slider(&mut self, written: &SliderContents, name: &str, span: &Span) -> Slider {
-        let SliderContents { kind, joint, contacts } = written;
+        let SliderContents { kind, opens, joint, contacts } = written;
         let all = self.friction(contacts, *kind == SliderKind::Guided, name, span);
-        let contacts = match kind {
+        let mut contacts = match kind {
             SliderKind::Block => self.contacts_of_block(joint, all, name, span),
             SliderKind::Guided | SliderKind::Pin => vec![self.contact(all, name.to_owned(), name, span)],
         };
+        for contact in contacts.iter_mut().filter(|_| *opens) {
+            // Without a second face there is no friction at it.
+            (contact.opens, contact.mu[1], contact.mu_static[1]) = (true, self.zero, self.zero);
+        }
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         Slider {
             kind: *kind,
             block: self.frame(&joint.block),
             guide: self.frame_or_ground(joint.guide.as_ref()),
             at: self.place(&joint.at, &format!("the place of {name}")),
-            along: self.along(&joint.along, &format!("the direction of {name}")),
+            along: self.along_of(joint, name, span),
             length: joint.length.as_ref().map(|quantity| self.formula(quantity, length)),
             height: self.height(joint.height.as_ref(), name),
             around: joint.fit == Some(Fit::Around),
             travel: self.travel(joint.travel.as_ref(), name),
+            has_ends: joint.face.is_some(),
             stops: self.stops(joint, name, span),
             contacts,
         }
+    }
+
+    /// The direction of a joint: its own, or from one end of its face to the other.
+    fn along_of(&mut self, joint: &SliderTable, name: &str, span: &Span) -> Along {
+        let what = format!("the direction of {name}");
+        let kind = match (&joint.along, &joint.face) {
+            (Some(along), None) => return self.along(along, &what),
+            (None, Some(ends)) => return self.along(&Direction::Points(ends.clone()), &what),
+            (Some(_), Some(_)) => FaultKind::Both { owner: name.to_owned(), first: "along", second: "face" },
+            (None, None) => FaultKind::NoneOf { owner: name.to_owned(), one_of: vec!["along", "face"] },
+        };
+        self.fault(kind, span);
+        Along::Angle(self.broken(span))
     }
 
     /// The contacts at both ends of a block, then its further ones: what stands at one wins over what all have.
@@ -239,6 +257,7 @@ impl Reader<'_> {
             misalignment: friction.misalignment,
             pad: friction.pad,
             face: None,
+            opens: false,
         }
     }
 

@@ -70,6 +70,7 @@ impl<'m> Instant<'m> {
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
         mechanism.check_no_press_fit("what follows in time")?;
+        mechanism.check_no_one_sided("what follows in time")?;
         mechanism.check_determinate("what follows in time")?;
         let equations = KineticEquations::new(mechanism, configuration)?;
         Self::of(mechanism, (configuration, equations), Least::Now(scale))

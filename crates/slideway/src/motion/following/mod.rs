@@ -48,6 +48,7 @@ pub fn simulate_with(
 ) -> Result<History, Faults> {
     check(options)?;
     mechanism.check_no_press_fit("a motion in time")?;
+    mechanism.check_no_one_sided("a motion in time")?;
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);

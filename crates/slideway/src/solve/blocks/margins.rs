@@ -79,7 +79,7 @@ impl<'a> Growth<'a> {
             EndCause::Range | EndCause::NoProblem => f64::INFINITY,
             _ => end.at.exp(),
         };
-        Some(mode_margin(self.mechanism, &ModeEnd { at, ..end }, nothing_is_left))
+        Some(mode_margin(self.mechanism, (&solution.states, &ModeEnd { at, ..end }), nothing_is_left))
     }
 
     /// Whether it is proven that there is no solution just beyond an end.

@@ -23,7 +23,7 @@
 mod circle;
 mod free;
 mod modes;
-mod polyhedron;
+pub(super) mod polyhedron;
 
 use super::answer::{Answer, Tipped, status};
 use super::attainability::not_computed;
@@ -60,6 +60,9 @@ pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Resu
 /// # Errors
 /// As [`of_contacts`].
 pub(crate) fn check_standing(mechanism: &Mechanism, standing: &[ContactId]) -> Result<(), Faults> {
+    if !standing.is_empty() {
+        mechanism.check_no_one_sided("what stands still while the rest moves")?;
+    }
     let is_within = free_forces(mechanism, standing).len() <= MOST_STANDING
         && mechanism.contacts.len() <= MOST_CONTACTS
         && mechanism.excess.is_empty()

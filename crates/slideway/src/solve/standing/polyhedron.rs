@@ -4,7 +4,7 @@ use super::super::distinct::{SAME_STATE, agree};
 use nalgebra::{DMatrix, DVector};
 
 /// All `t` with `row . (1, t) >= 0` for all rows.
-pub(super) struct Polyhedron {
+pub(in crate::solve) struct Polyhedron {
     /// Of greatest entry one.
     rows: Vec<DVector<f64>>,
     dimension: usize,
@@ -12,25 +12,25 @@ pub(super) struct Polyhedron {
 
 /// What a polyhedron is made of: mixtures of the corners, and any amount of the growths beside them.
 #[derive(Default)]
-pub(super) struct Extremes {
-    pub(super) corners: Vec<DVector<f64>>,
-    pub(super) growths: Vec<DVector<f64>>,
+pub(in crate::solve) struct Extremes {
+    pub(in crate::solve) corners: Vec<DVector<f64>>,
+    pub(in crate::solve) growths: Vec<DVector<f64>>,
 }
 
 impl Polyhedron {
-    pub(super) fn new(dimension: usize, rows: impl Iterator<Item = DVector<f64>>) -> Self {
+    pub(in crate::solve) fn new(dimension: usize, rows: impl Iterator<Item = DVector<f64>>) -> Self {
         let first = DVector::from_fn(dimension + 1, |entry, _| f64::from(u8::from(entry == 0)));
         let rows = rows.chain(std::iter::once(first)).filter(|row| row.amax() > 0.0);
         Self { rows: rows.map(|row| &row / row.amax()).collect(), dimension }
     }
 
     /// Whether a point, or a direction with a first entry of zero, is in it within rounding.
-    pub(super) fn contains(&self, point: &DVector<f64>) -> bool {
+    pub(in crate::solve) fn contains(&self, point: &DVector<f64>) -> bool {
         self.rows.iter().all(|row| row.dot(point) >= -SAME_STATE * point.amax())
     }
 
     /// The extreme rays of `{x : row . x >= 0}`: along each, as many independent rows vanish as `t` has components.
-    pub(super) fn extremes(&self) -> Extremes {
+    pub(in crate::solve) fn extremes(&self) -> Extremes {
         let mut rays: Vec<DVector<f64>> = Vec::new();
         for chosen in choices(self.rows.len(), self.dimension) {
             let chosen: Vec<_> = chosen.iter().map(|&row| self.rows[row].transpose()).collect();

@@ -47,14 +47,16 @@ impl State<'_> {
         slacks
     }
 
-    /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do.
+    /// The accelerations of the sliding joints and hinges that begin to move, in the direction in which they do, and those of
+    /// the gaps of the contacts that lift off.
     pub(in crate::standstill) fn beginning(&self) -> Vec<AffineExpression> {
         let sliders = self.pattern.joints.iter().enumerate();
         let sliders = sliders.map(|(index, joint)| (*joint, self.sliding_acceleration(index)));
         let hinges = self.pattern.hinges.iter().enumerate();
         let hinges = hinges.map(|(index, hinge)| (*hinge, self.turning_acceleration(index)));
         let moving = sliders.chain(hinges).filter(|(joint, _)| *joint != JointPhase::Sticking);
-        moving.map(|(joint, acceleration)| acceleration.times(joint.sign())).collect()
+        let moving = moving.map(|(joint, acceleration)| acceleration.times(joint.sign()));
+        moving.chain(self.open().map(|k| self.gap_acceleration(k))).collect()
     }
 
     /// The hinges with friction: those that stick within their static circles, those that turn on their kinetic ones unless
@@ -80,10 +82,11 @@ impl State<'_> {
     }
 }
 
-/// All combinations of sides of the contacts.
-pub(in crate::standstill) fn sides(setup: &Setup) -> Vec<Vec<ContactPhase>> {
+/// All combinations of sides of the contacts, of which these lift off.
+pub(in crate::standstill) fn sides(setup: &Setup, open: &[usize]) -> Vec<Vec<ContactPhase>> {
     let mut all = vec![Vec::new()];
-    for options in side_options(setup) {
+    for (k, options) in side_options(setup).into_iter().enumerate() {
+        let options = if open.contains(&k) { &[ContactPhase::PreloadGap] } else { options };
         let extended = |sides: Vec<ContactPhase>| {
             options.iter().map(move |side| sides.iter().copied().chain([*side]).collect::<Vec<_>>())
         };
@@ -92,12 +95,13 @@ pub(in crate::standstill) fn sides(setup: &Setup) -> Vec<Vec<ContactPhase>> {
     all
 }
 
-/// The sides that each contact may take.
+/// The sides that each contact may take. One that may lift off is closed unless it does: without a force it just touches.
 pub(in crate::standstill) fn side_options(setup: &Setup) -> Vec<&'static [ContactPhase]> {
     let may_be_open = |k: usize| setup.shared.as_ref().is_some_and(|shared| shared.may_be_open(k));
     let contacts = 0..setup.mechanism.contacts.len();
     contacts
         .map(|k| match setup.mechanism.contacts[k].face {
+            _ if setup.mechanism.contacts[k].opens => ContactPhase::CLOSED,
             Some(face) => ContactPhase::options_of_face(face.is_positive),
             None => ContactPhase::options(setup.mechanism.preload_jumps(ContactId(k)) || may_be_open(k)),
         })

@@ -101,6 +101,7 @@ impl<'s> State<'s> {
 
     fn new_friction(&mut self, k: usize) -> Friction {
         let slider = self.setup.sliders.iter().position(|slider| slider.contacts.contains(&k));
+        let slider = slider.filter(|_| !self.lifts_off(k));
         let joint = slider.map_or(JointPhase::Sticking, |index| self.pattern.joints[index]);
         let contact = self.pattern.contacts[k];
         let pressure = match contact {
@@ -281,15 +282,22 @@ impl<'s> State<'s> {
         let setup = self.setup;
         let rows = setup.equations_of_motion();
         let mut found = Vec::new();
-        for row_place in rows..setup.assembled.layout.len() {
+        let gaps: Vec<usize> =
+            setup.one_sided().iter().map(|&k| self.normal_column(k) + rows - self.first_force()).collect();
+        for row_place in (rows..setup.assembled.layout.len()).filter(|place| !gaps.contains(place)) {
             let entries = (0..rows).map(|column| (column, setup.assembled.matrix[(row_place, column)]));
             let row = self.dense(&self.of_accelerations(entries, 1.0));
             let (size, value) = (row.amax(), setup.assembled.load[row_place]);
             found.push(if size > 0.0 { (row / size, value / size) } else { (row, value) });
         }
+        for k in setup.one_sided().into_iter().filter(|&k| !self.lifts_off(k)) {
+            found.push((self.dense(&self.gap_acceleration(k)), 0.0));
+        }
         let sticks = |acceleration: AffineExpression| (self.dense(&acceleration), 0.0);
         for (index, joint) in self.pattern.joints.iter().enumerate() {
-            if *joint == JointPhase::Sticking {
+            let contacts = &self.setup.sliders[index].contacts;
+            let touches = contacts.is_empty() || contacts.iter().any(|&k| !self.lifts_off(k));
+            if *joint == JointPhase::Sticking && touches {
                 found.push(sticks(self.sliding_acceleration(index)));
             }
         }
@@ -393,6 +401,22 @@ impl State<'_> {
             .map(|column| (column, -f64::midpoint(positive[column], negative[column])));
         let unit = self.setup.units.acceleration;
         self.of_accelerations(along, unit)
+    }
+
+    /// Acceleration of the gap of a contact.
+    pub(super) fn gap_acceleration(&self, k: usize) -> AffineExpression {
+        let row = self.setup.gap_row(k);
+        self.of_accelerations(row.iter().copied().enumerate(), self.setup.units.acceleration)
+    }
+
+    /// Whether a contact that may lift off does.
+    fn lifts_off(&self, k: usize) -> bool {
+        self.setup.mechanism.contacts[k].opens && self.pattern.contacts[k] == ContactPhase::PreloadGap
+    }
+
+    /// The contacts that lift off.
+    pub(super) fn open(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.pattern.contacts.len()).filter(|&k| self.lifts_off(k))
     }
 
     /// Angular acceleration of the first body of a hinge with friction against the second.

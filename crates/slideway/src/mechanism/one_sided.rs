@@ -1,0 +1,117 @@
+//! Contacts that may lift off: what is open in a state is not there.
+
+use super::{Contact, JointKind, Mechanism};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{ContactId, JointId};
+use crate::interval::Real;
+use crate::modes::ContactState;
+
+impl<T> Mechanism<T> {
+    /// The contacts that may lift off.
+    pub(crate) fn one_sided(&self) -> impl Iterator<Item = ContactId> + '_ {
+        (0..self.contacts.len()).filter(|&k| self.contacts[k].opens).map(ContactId)
+    }
+
+    /// The contacts that lift off in a state of the mode problem.
+    pub(crate) fn opening<'s>(&'s self, states: &'s [ContactState]) -> impl Iterator<Item = usize> + 's {
+        self.one_sided().map(ContactId::index).filter(|&k| states[k] == ContactState::Negative)
+    }
+
+    /// Whether a contact that may lift off is closed in a state of the mode problem; none of other contacts.
+    pub(crate) fn is_closed(&self, states: &[ContactState], contact: usize) -> Option<bool> {
+        self.contacts[contact].opens.then(|| states[contact] != ContactState::Negative)
+    }
+
+    /// Takes `nothing` for the forces of the contacts that lift off.
+    pub(crate) fn put_out_of_open<V: Copy>(&self, states: &[ContactState], forces: &mut [V], nothing: V) {
+        self.opening(states).for_each(|k| forces[k] = nothing);
+    }
+}
+
+/// A block may be off the line through both ends of its face by this part of the size of the mechanism, for rounding.
+const ON_FACE: f64 = 1e-9;
+
+impl Mechanism {
+    /// Refuses blocks that are not on their faces in the drawing, given how far each is off.
+    ///
+    /// # Errors
+    /// A fault for each of them.
+    pub(super) fn check_on_faces(&self, off: impl Iterator<Item = (JointId, f64)>) -> Result<(), Faults> {
+        let mut faults = Faults::default();
+        for (joint, off) in off.filter(|(_, off)| off.abs() > ON_FACE * self.size) {
+            let joint = &self.joints[joint.index()];
+            let kind = FaultKind::OffFace {
+                contact: joint.name.to_string(),
+                gap: self.units.of("m").show(off.abs()),
+            };
+            faults.push(Fault::new(kind, joint.place.clone()));
+        }
+        faults.or(())
+    }
+}
+
+impl<T: Real> Mechanism<T> {
+    /// Refuses contacts that may lift off and take part in a self-stress, as nothing says what they carry while they slide;
+    /// and friction in hinges beside them.
+    ///
+    /// # Errors
+    /// A fault that names them.
+    pub(crate) fn check_one_sided(&self) -> Result<(), Faults> {
+        self.check_one_sided_in_excess()?;
+        if self.friction_circles.iter().any(|circle| circle.radius.upper() > 0.0) {
+            self.check_no_one_sided("friction in hinges")?;
+        }
+        Ok(())
+    }
+
+    /// Refuses contacts that may lift off and take part in a self-stress.
+    ///
+    /// # Errors
+    /// A fault that names them.
+    pub(crate) fn check_one_sided_in_excess(&self) -> Result<(), Faults> {
+        let shares: Vec<ContactId> =
+            self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
+        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts })
+    }
+
+    /// Refuses contacts that may lift off, for what is not known of them.
+    ///
+    /// # Errors
+    /// A fault that names them, if there are some.
+    pub(crate) fn check_no_one_sided(&self, question: &'static str) -> Result<(), Faults> {
+        let contacts: Vec<ContactId> = self.one_sided().collect();
+        self.refuse(&contacts, |contacts| FaultKind::OneSided { question, contacts })
+    }
+
+    fn refuse(
+        &self,
+        contacts: &[ContactId],
+        kind: impl FnOnce(Vec<String>) -> FaultKind,
+    ) -> Result<(), Faults> {
+        let Some(first) = contacts.first() else { return Ok(()) };
+        let contact = |id: &ContactId| &self.contacts[id.index()];
+        let names = contacts.iter().map(|id| contact(id).name.to_string()).collect();
+        let place = self.joints[contact(first).joint.index()].place.clone();
+        Err(Fault::new(kind(names), place).into())
+    }
+
+    /// The mechanism without these contacts, in their order: what is left of it when they are open. Joints keep
+    /// their numbers.
+    pub(crate) fn without_contacts(&self, open: &[usize]) -> Self {
+        let mut left = self.clone();
+        let kept: Vec<usize> = (0..self.contacts.len()).filter(|k| !open.contains(k)).collect();
+        let place = |contact: ContactId| kept.iter().position(|&k| k == contact.index()).map(ContactId);
+        left.contacts = kept.iter().map(|&k| self.contacts[k].clone()).collect();
+        let faces = left.contacts.iter_mut().filter_map(|Contact { face, .. }| face.as_mut());
+        faces.for_each(|face| face.other = place(face.other).unwrap_or(face.other));
+        for joint in &mut left.joints {
+            if let JointKind::Slider(slider) = &mut joint.kind {
+                slider.contacts = slider.contacts.iter().filter_map(|contact| place(*contact)).collect();
+            }
+        }
+        // Of no self-stress is a contact that may lift off a part.
+        left.excess.contacts = self.excess.contacts.iter().filter_map(|contact| place(*contact)).collect();
+        left.excess.open = self.excess.open.of_contacts(&kept);
+        left
+    }
+}

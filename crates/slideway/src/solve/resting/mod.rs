@@ -1,0 +1,363 @@
+//! Contacts that may lift off and do not slide at the start (theory, section 12): each joint of them sticks, begins to slide
+//! one way or the other, or lifts off, a block with one corner or with both.
+//!
+//! With all contacts closed the unknowns of the kinetic equations are affine in the forces. For a pattern of states
+//!
+//! ```text
+//! x = x_0 + sum_k z_k x_k + sum_j T_j t_j        z_k: |N_k| where closed, the acceleration of the gap where open
+//! N_k(x) = s_k z_k closed, 0 open                v_j'(x) = 0 of joints that stick
+//! z_k >= 0       |T_j| <= sum_k mu_static_k z_k  of joints that stick       s_j v_j'(x) >= 0 of joints that slip
+//! ```
+//!
+//! is one system of linear equations, and all patterns are tried: four for a corner at rest, ten for a block, two for
+//! each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. Three absolute
+//! values for each contact would state the same as a block problem, whose search is proven, with patterns beside that no state
+//! has; the native states also have static friction above kinetic, and what the equations leave open.
+
+mod patterns;
+
+use super::answer::{Answer, Tipped, joint_modes, status};
+use super::attainability::not_computed;
+use super::distinct::distinct;
+use super::mode_problem::{Sliding, none_stands, sliding_signs};
+use super::stages::Stages;
+use super::standing::polyhedron::{Extremes, Polyhedron};
+use super::state::{Held, State, pattern, signs};
+use super::words::sliding_in_words;
+use crate::configuration::Configuration;
+use crate::fault::Faults;
+use crate::ids::JointId;
+use crate::influence::{ContactFriction, Influence};
+use crate::kinetics::{KineticEquations, SlidingRow};
+use crate::mechanism::{Contact, JointKind, Mechanism};
+use crate::modes::{Certificate, ContactState};
+use crate::pattern::{Affine, AffineSet};
+use crate::report::{Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport};
+use nalgebra::DVector;
+use patterns::System;
+
+/// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
+const TOLERANCE: f64 = 1e-9;
+
+/// A joint that does not slide at the start.
+struct RestingJoint {
+    joint: JointId,
+    contacts: Vec<usize>,
+    row: SlidingRow,
+}
+
+/// What a joint at rest does that touches.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Start {
+    Sticks,
+    Slips(f64),
+}
+
+/// What all contacts and all joints at rest do; none of a joint that lifts off as a whole.
+#[derive(Clone)]
+struct Pattern {
+    states: Vec<ContactState>,
+    starts: Vec<Option<Start>>,
+}
+
+/// The joints that may lift off and do not slide at the start, if these are all that do not.
+///
+/// # Errors
+/// Other contacts with friction that do not slide.
+fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<RestingJoint>, Faults> {
+    let signs = sliding_signs(mechanism, configuration);
+    let rests = |k: usize| {
+        let contact = &mechanism.contacts[k];
+        contact.opens && contact.may_hold() && signs[k] == 0.0
+    };
+    let joint = |(index, joint): (usize, &crate::mechanism::Joint)| {
+        let JointKind::Slider(slider) = &joint.kind else { return None };
+        let contacts: Vec<usize> = slider.contacts.iter().map(|contact| contact.index()).collect();
+        let row = || SlidingRow::new(mechanism, configuration, slider);
+        contacts.iter().any(|&k| rests(k)).then(|| RestingJoint {
+            joint: JointId(index),
+            row: row(),
+            contacts,
+        })
+    };
+    let joints: Vec<RestingJoint> = mechanism.joints.iter().enumerate().filter_map(joint).collect();
+    if joints.is_empty() {
+        return Ok(joints);
+    }
+    let mut others = mechanism.clone();
+    for joint in &joints {
+        joint
+            .contacts
+            .iter()
+            .for_each(|&k| (others.contacts[k].mu, others.contacts[k].mu_static) = Default::default());
+    }
+    none_stands(&others, &Sliding::of(&others, configuration)?.standing)?;
+    Ok(joints)
+}
+
+/// Which contacts slide, where those that may lift off need not.
+///
+/// # Errors
+/// Other contacts with friction that do not slide.
+pub(crate) fn sliding_or_resting(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<Sliding, Faults> {
+    if resting(mechanism, configuration)?.is_empty() {
+        return Sliding::of(mechanism, configuration);
+    }
+    Ok(Sliding { signs: sliding_signs(mechanism, configuration), standing: Vec::new() })
+}
+
+/// All states of a mechanism of which contacts that may lift off do not slide at the start; none if there are no such contacts.
+///
+/// # Errors
+/// Other contacts with friction that do not slide, friction in hinges beside them, more patterns of states than are tried.
+pub(super) fn of_mechanism(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<Option<SolveReport>, Faults> {
+    if mechanism.one_sided().next().is_none() {
+        return Ok(None);
+    }
+    let mut mechanism = mechanism.clone();
+    configuration.put_friction(&mut mechanism)?;
+    let joints = resting(&mechanism, configuration)?;
+    if joints.is_empty() {
+        return Ok(None);
+    }
+    let equations = KineticEquations::new(&mechanism, configuration)?;
+    let influences = equations.influences();
+    let stages = Stages {
+        velocity_signs: sliding_signs(&mechanism, configuration),
+        accuracy: influences.accuracy(),
+        influence: Influence::of(influences),
+        mechanism,
+        configuration: configuration.clone(),
+        standing: Vec::new(),
+    };
+    let mut smooth = stages.mechanism.clone();
+    smooth.multiply_friction_of_contacts(|_| 0.0);
+    let answer = Answer::determinate(&stages, &equations);
+    Resting { answer, stages: &stages, joints, smooth }.report().map(Some)
+}
+
+/// A mechanism of which some joints are at rest.
+struct Resting<'a> {
+    answer: Answer<'a>,
+    stages: &'a Stages,
+    joints: Vec<RestingJoint>,
+    /// The mechanism without friction.
+    smooth: Mechanism,
+}
+
+/// A point of what a pattern leaves.
+struct Point {
+    pattern: Pattern,
+    normal_force: DVector<f64>,
+    held: Vec<Held>,
+    signs: Vec<i8>,
+    oriented: f64,
+}
+
+impl Resting<'_> {
+    fn report(&self) -> Result<SolveReport, Faults> {
+        let all = self.patterns()?;
+        let open = vec![format!(
+            "the states of {}, at rest at the start, are computed in floating point",
+            self.names()
+        )];
+        let (mut solutions, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
+        let (nodes, every_load_has_one_state) = (all.len() as u64, self.is_unique(&all));
+        for pattern in all {
+            let system = self.system(pattern, &self.stages.mechanism);
+            let Some(set) = self.equations(&system) else { continue };
+            if set.dimension() == 0 {
+                let unknowns = set.particular() * self.force();
+                if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
+                    solutions.extend(self.solution(&point, &mut tipped));
+                }
+            } else {
+                continua.extend(self.continuum(&system, &set));
+            }
+        }
+        let solutions = distinct(solutions, &[]);
+        Ok(SolveReport {
+            status: status(false, solutions.len(), 0, continua.len()),
+            complete: Proof::NotProven,
+            count: solutions.len().to_string(),
+            strategy: "every state of the contacts at rest".to_owned(),
+            nodes,
+            undetermined: self.answer.undetermined(&continua),
+            at_rest: self.joints.iter().map(|joint| self.name(joint).to_owned()).collect(),
+            every_load_has_one_state,
+            solutions,
+            continua,
+            rejected: tipped.rejected,
+            ..self.answer.report_without_solutions(open)
+        })
+    }
+
+    fn name(&self, joint: &RestingJoint) -> &str {
+        &self.stages.mechanism.joints[joint.joint.index()].name
+    }
+
+    fn names(&self) -> String {
+        self.joints.iter().map(|joint| self.name(joint)).collect::<Vec<_>>().join(", ")
+    }
+
+    /// A point at which all inequalities of a pattern hold.
+    fn point(
+        &self,
+        system: &System,
+        unknowns: &DVector<f64>,
+        [beginning, slacks]: &[Vec<Affine>; 2],
+    ) -> Option<Point> {
+        let rounding = TOLERANCE * unknowns.amax().max(self.force()) / self.force();
+        let begins = beginning.iter().all(|slack| slack.constant > rounding);
+        let holds = slacks.iter().all(|slack| slack.constant >= -rounding);
+        (begins && holds).then(|| self.at(system, unknowns))
+    }
+
+    /// What contacts do with these unknowns. Forces that are rounding are none.
+    fn at(&self, system: &System, unknowns: &DVector<f64>) -> Point {
+        let mechanism = &self.stages.mechanism;
+        let Pattern { states, starts } = &system.pattern;
+        let contacts = states.len();
+        let nothing = TOLERANCE * unknowns.amax().max(self.force());
+        let force = |k: usize| if unknowns[k].abs() <= nothing { 0.0 } else { unknowns[k] };
+        let mut held = Vec::new();
+        for (index, (joint, start)) in self.joints.iter().zip(starts).enumerate() {
+            let closed: Vec<usize> =
+                joint.contacts.iter().copied().filter(|&k| !self.is_open(&system.pattern, k)).collect();
+            let all: f64 = closed.iter().map(|&k| mechanism.contacts[k].mu_static[0] * force(k)).sum();
+            for &k in &closed {
+                let Contact { mu, mu_static, .. } = &mechanism.contacts[k];
+                let friction = match start {
+                    Some(Start::Slips(sign)) => sign * mu[0] * force(k),
+                    Some(Start::Sticks) => {
+                        let unknown = system.sticking.iter().position(|stuck| *stuck == index);
+                        let whole = unknown.map_or(0.0, |unknown| unknowns[contacts + unknown]);
+                        if all > 0.0 { whole * mu_static[0] * force(k) / all } else { 0.0 }
+                    }
+                    None => 0.0,
+                };
+                held.push(Held {
+                    contact: k,
+                    friction: ContactFriction { positive_face: friction, negative_face: 0.0 },
+                });
+            }
+        }
+        let sign = |(k, sign): (usize, i8)| if force(k) == 0.0 { 0 } else { sign };
+        Point {
+            normal_force: DVector::from_fn(contacts, |k, _| states[k].sign() * force(k)),
+            signs: signs(states).into_iter().enumerate().map(sign).collect(),
+            held,
+            oriented: self.oriented(system).unwrap_or(0.0),
+            pattern: system.pattern.clone(),
+        }
+    }
+
+    fn solution(&self, point: &Point, tipped: &mut Tipped) -> Option<Solution> {
+        let mut kept = self.answer.kept(&point.state(), tipped)?;
+        kept.attainability = not_computed("contacts are at rest at the start");
+        kept.joints = self.words(point);
+        Some(kept)
+    }
+
+    /// What each sliding joint does, those at rest with how they start.
+    fn words(&self, point: &Point) -> Vec<JointMode> {
+        let Stages { mechanism, configuration, .. } = self.stages;
+        let mut modes = joint_modes(mechanism, configuration, &point.signs);
+        for (joint, start) in self.joints.iter().zip(&point.pattern.starts) {
+            let name = self.name(joint);
+            let Some(mode) = modes.iter_mut().find(|mode| mode.name == name) else { continue };
+            let starts = match (start, mechanism.slider(joint.joint)) {
+                (Some(Start::Slips(sign)), Some(slider)) => {
+                    let sign = if *sign < 0.0 { -1 } else { 1 };
+                    sliding_in_words(mechanism, configuration, slider, sign)
+                }
+                (Some(Start::Sticks), _) => "sticks".to_owned(),
+                _ => continue,
+            };
+            mode.mode = format!("{}, {starts}", mode.mode);
+        }
+        modes
+    }
+
+    /// What the inequalities of a pattern leave of forces that its equations leave open.
+    fn continuum(&self, system: &System, set: &AffineSet) -> Option<Continuum> {
+        let [beginning, slacks] = self.slacks(system, set);
+        let row = |slack: &Affine| {
+            DVector::from_iterator(
+                1 + slack.coefficients.len(),
+                std::iter::once(slack.constant).chain(slack.coefficients.iter().copied()),
+            )
+        };
+        let Extremes { corners, growths } =
+            Polyhedron::new(set.dimension(), slacks.iter().chain(&beginning).map(row)).extremes();
+        let begins = |slack: &Affine| {
+            let at = corners.iter().map(|corner| slack.at(corner.as_slice()));
+            let along = growths.iter().map(|growth| slack.at(growth.as_slice()) - slack.constant);
+            at.chain(along).any(|value| value > TOLERANCE)
+        };
+        if !beginning.iter().all(begins) {
+            return None;
+        }
+        let first = corners.first()?;
+        let unknowns = |free: &DVector<f64>| set.at(free) * self.force();
+        let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
+        let all = |free: &DVector<f64>| self.answer.unknowns(&point(free).state());
+        let list = |point: &Point| point.normal_force.iter().map(|force| force + 0.0).collect::<Vec<f64>>();
+        let along = |growth: &DVector<f64>| point(&(first + growth));
+        let growth = |growth: &DVector<f64>| self.answer.growth(&all(first), &all(&(first + growth)), 1.0);
+        let difference = |growth: &DVector<f64>| {
+            let (at, further) = (list(&point(first)), list(&along(growth)));
+            further.iter().zip(&at).map(|(further, at)| further - at).collect()
+        };
+        let held = |k: usize, free: &DVector<f64>| {
+            let point = point(free);
+            point
+                .held
+                .iter()
+                .find(|held| held.contact == k)
+                .map_or(0.0, |held| held.friction.positive_face + 0.0)
+        };
+        let stuck = system.sticking.iter().flat_map(|&joint| self.joints[joint].contacts.clone());
+        let of_contact = |k: usize| HeldFriction {
+            name: self.stages.mechanism.contacts[k].name.to_string(),
+            unit: "N",
+            at: corners.iter().map(|corner| held(k, corner)).collect(),
+            along: growths.iter().map(|growth| held(k, &(first + growth)) - held(k, first)).collect(),
+        };
+        Some(Continuum {
+            pattern: pattern(&system.pattern.states),
+            vertices: corners.iter().map(|corner| list(&point(corner))).collect(),
+            directions: growths.iter().map(difference).collect(),
+            motion: corners.iter().map(|corner| self.answer.driven_motion(&all(corner))).collect(),
+            motion_along: growths.iter().map(growth).collect(),
+            tipping: Vec::new(),
+            couple: None,
+            held: stuck.map(of_contact).collect(),
+        })
+    }
+}
+
+impl Point {
+    fn state(&self) -> State<'_> {
+        let states = &self.pattern.states;
+        let orientation: f64 = states.iter().map(|state| state.sign()).product();
+        State {
+            pattern: states,
+            patterns: vec![pattern(states)],
+            normal_force: &self.normal_force,
+            shares: vec![None; states.len()],
+            signs: self.signs.clone(),
+            on_boundary: self.signs.contains(&0),
+            determinant: self.oriented * orientation,
+            certificate: &Certificate::NotProven,
+            hinges: &[],
+            held: &self.held,
+        }
+    }
+}

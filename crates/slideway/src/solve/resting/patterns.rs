@@ -1,0 +1,236 @@
+//! The patterns of states of contacts at rest: their equations and inequalities.
+
+use super::{Pattern, Resting, RestingJoint, Start, TOLERANCE};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
+use crate::kinetics::Reaction;
+use crate::mechanism::{Contact, Mechanism};
+use crate::modes::ContactState;
+use crate::pattern::{Affine, AffineExpression, AffineSet};
+use crate::solve::friction::friction;
+use crate::solve::stages::Stages;
+use nalgebra::{DMatrix, DVector};
+
+/// More patterns of states are refused.
+const MOST_PATTERNS: u64 = 100_000;
+
+/// The equations of a pattern, and its inequalities as functions of their unknowns: of the contacts, then of the friction of the
+/// joints that stick.
+pub(super) struct System {
+    pub(super) pattern: Pattern,
+    pub(super) base: DVector<f64>,
+    pub(super) columns: Vec<DVector<f64>>,
+    /// For each unknown friction, its joint.
+    pub(super) sticking: Vec<usize>,
+}
+
+impl Resting<'_> {
+    /// All patterns of states.
+    ///
+    /// # Errors
+    /// More than are tried.
+    pub(super) fn patterns(&self) -> Result<Vec<Pattern>, Faults> {
+        use ContactState::{Negative, Positive};
+        let contacts = self.stages.mechanism.contacts.len();
+        let at_rest: Vec<usize> = self.joints.iter().flat_map(|joint| joint.contacts.clone()).collect();
+        let of_joint = |joint: &RestingJoint| 3 * ((1_u64 << joint.contacts.len()) - 1) + 1;
+        let sliding = u32::try_from(contacts - at_rest.len()).ok().and_then(|count| 2_u64.checked_pow(count));
+        let states = self.joints.iter().map(of_joint).fold(sliding.unwrap_or(u64::MAX), u64::saturating_mul);
+        if states > MOST_PATTERNS {
+            return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_PATTERNS }).into());
+        }
+        let first = Pattern { states: vec![Positive; contacts], starts: Vec::new() };
+        let mut all = vec![first];
+        for k in (0..contacts).filter(|k| !at_rest.contains(k)) {
+            all = with_state(all, k, &[Positive, Negative]);
+        }
+        for joint in &self.joints {
+            let mut next = Vec::new();
+            for pattern in
+                joint.contacts.iter().fold(all, |all, &k| with_state(all, k, &[Positive, Negative]))
+            {
+                let touches = joint.contacts.iter().any(|&k| pattern.states[k] == Positive);
+                let starts: &[Option<Start>] = if touches {
+                    &[Some(Start::Sticks), Some(Start::Slips(1.0)), Some(Start::Slips(-1.0))]
+                } else {
+                    &[None]
+                };
+                next.extend(starts.iter().map(|start| {
+                    let mut pattern = pattern.clone();
+                    pattern.starts.push(*start);
+                    pattern
+                }));
+            }
+            all = next;
+        }
+        Ok(all)
+    }
+
+    /// The unknowns of the kinetic equations without the forces of a pattern, and what a unit of each adds.
+    pub(super) fn system(&self, pattern: Pattern, mechanism: &Mechanism) -> System {
+        let Stages { influence, velocity_signs, .. } = self.stages;
+        let mut signs = velocity_signs.clone();
+        for (joint, start) in self.joints.iter().zip(&pattern.starts) {
+            let sign = if let Some(Start::Slips(sign)) = start { *sign } else { 0.0 };
+            joint.contacts.iter().for_each(|&k| signs[k] = sign);
+        }
+        let contacts = pattern.states.len();
+        let shares = vec![None; contacts];
+        let unknowns = |forces: &DVector<f64>| {
+            influence.unknowns(&friction(mechanism, &signs, &pattern.states, forces, &shares), forces)
+        };
+        let base = unknowns(&DVector::zeros(contacts));
+        let mut columns: Vec<DVector<f64>> = (0..contacts)
+            .map(|k| {
+                let mut forces = DVector::zeros(contacts);
+                forces[k] = pattern.states[k].sign();
+                unknowns(&forces) - &base
+            })
+            .collect();
+        let sticks =
+            |(joint, start): (usize, &Option<Start>)| (*start == Some(Start::Sticks)).then_some(joint);
+        let sticking: Vec<usize> = pattern.starts.iter().enumerate().filter_map(sticks).collect();
+        let of_friction = |joint: &usize| influence.columns[self.joints[*joint].contacts[0]][0].clone();
+        columns.extend(sticking.iter().map(of_friction));
+        System { pattern, base, columns, sticking }
+    }
+
+    /// The equations of a pattern in units of force; none if they contradict each other.
+    pub(super) fn equations(&self, system: &System) -> Option<AffineSet> {
+        let force = self.force();
+        let matrix = self.matrix(system);
+        let contacts = system.pattern.states.len();
+        let right = DVector::from_fn(matrix.nrows(), |row, _| match row.checked_sub(contacts) {
+            None => -system.base[self.place(row)] / force,
+            Some(stuck) => {
+                let joint = system.sticking[stuck];
+                -self.joints[joint].row.acceleration(&system.base) / self.acceleration(system, joint)
+            }
+        });
+        AffineSet::of(matrix, right)
+    }
+
+    /// Rows of the normal forces, then of what sticks; a column for each unknown.
+    pub(super) fn matrix(&self, system: &System) -> DMatrix<f64> {
+        let contacts = system.pattern.states.len();
+        let size = system.columns.len();
+        DMatrix::from_fn(size, size, |row, column| match row.checked_sub(contacts) {
+            None => {
+                let of_itself = if row == column && !self.is_open(&system.pattern, row) {
+                    system.pattern.states[row].sign()
+                } else {
+                    0.0
+                };
+                system.columns[column][self.place(row)] - of_itself
+            }
+            Some(stuck) => {
+                let joint = system.sticking[stuck];
+                let change = self.joints[joint].row.change(&system.columns[column]);
+                change * self.force() / self.acceleration(system, joint)
+            }
+        })
+    }
+
+    /// `slack >= 0` of a pattern, as functions of what its equations leave open; in units of force or of the joint's
+    /// acceleration. Those that must not vanish are the first of the pair: what slips or opens without an acceleration sticks or
+    /// touches.
+    pub(super) fn slacks(&self, system: &System, set: &AffineSet) -> [Vec<Affine>; 2] {
+        let contacts = system.pattern.states.len();
+        let mechanism = &self.stages.mechanism;
+        let (open, closed): (Vec<usize>, Vec<usize>) =
+            (0..contacts).partition(|&k| self.is_open(&system.pattern, k));
+        let own = |list: Vec<usize>| -> Vec<AffineExpression> {
+            list.into_iter().map(|k| AffineExpression::unknown(k, 1.0)).collect()
+        };
+        let (mut beginning, mut all) = (own(open), own(closed));
+        for (unknown, &joint) in (contacts..).zip(&system.sticking) {
+            let closed = self.joints[joint].contacts.iter().filter(|&&k| !self.is_open(&system.pattern, k));
+            let limit = closed.fold(AffineExpression::default(), |limit, &k| {
+                limit.plus(mechanism.contacts[k].mu_static[0], &AffineExpression::unknown(k, 1.0))
+            });
+            all.extend(
+                [1.0, -1.0].map(|sign| limit.clone().plus(sign, &AffineExpression::unknown(unknown, 1.0))),
+            );
+        }
+        for (joint, start) in system.pattern.starts.iter().enumerate() {
+            let Some(Start::Slips(sign)) = start else { continue };
+            let unit = self.acceleration(system, joint);
+            let row = &self.joints[joint].row;
+            let at_zero = AffineExpression::constant(sign * row.acceleration(&system.base) / unit);
+            beginning.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
+                slack.plus(
+                    sign * row.change(column) * self.force() / unit,
+                    &AffineExpression::unknown(unknown, 1.0),
+                )
+            }));
+        }
+        [beginning, all].map(|slacks| slacks.iter().map(|slack| set.function(slack)).collect())
+    }
+
+    /// The determinant of a pattern over that without friction; none where the latter vanishes, as rows are dependent.
+    pub(super) fn oriented(&self, system: &System) -> Option<f64> {
+        let smooth = self.system(system.pattern.clone(), &self.smooth);
+        let (matrix, without) = (self.matrix(system), self.matrix(&smooth));
+        let of_smooth = without.determinant();
+        let size: f64 = without.row_iter().map(|row| row.norm()).product();
+        let factor = self.scale(system) / self.scale(&smooth);
+        (of_smooth.abs() > TOLERANCE * size).then(|| matrix.determinant() / of_smooth * factor)
+    }
+
+    /// Whether every load has exactly one state, where nothing slides and static friction is kinetic friction: the oriented
+    /// determinants of all patterns are positive (Kuhn and Loewen 1987). None where that is no answer.
+    pub(super) fn is_unique(&self, patterns: &[Pattern]) -> Option<bool> {
+        let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;
+        let slides =
+            |k: usize| self.stages.velocity_signs[k] != 0.0 && self.stages.mechanism.contacts[k].may_hold();
+        let contacts = &self.stages.mechanism.contacts;
+        if !contacts.iter().all(has_one_law) || (0..contacts.len()).any(slides) {
+            return None;
+        }
+        let determinant =
+            |pattern: &Pattern| self.oriented(&self.system(pattern.clone(), &self.stages.mechanism));
+        let all: Option<Vec<f64>> = patterns.iter().map(determinant).collect();
+        Some(all?.iter().all(|determinant| *determinant > 0.0))
+    }
+
+    /// By what the rows of a matrix are divided.
+    pub(super) fn scale(&self, system: &System) -> f64 {
+        system.sticking.iter().map(|&joint| self.acceleration(system, joint)).product()
+    }
+
+    pub(super) fn is_open(&self, pattern: &Pattern, k: usize) -> bool {
+        self.stages.mechanism.contacts[k].opens && pattern.states[k] == ContactState::Negative
+    }
+
+    pub(super) fn place(&self, k: usize) -> usize {
+        let place = self.stages.influence.layout().reaction(Reaction::Normal(ContactId(k)));
+        place.expect("every contact has a normal force")
+    }
+
+    /// The greatest normal force with all contacts closed and without friction, or 1 N.
+    pub(super) fn force(&self) -> f64 {
+        let greatest = self.stages.influence.normal_forces().amax();
+        if greatest > 0.0 { greatest } else { 1.0 }
+    }
+
+    /// The greatest acceleration of sliding of a joint that a unit of force causes in a pattern.
+    pub(super) fn acceleration(&self, system: &System, joint: usize) -> f64 {
+        let row = &self.joints[joint].row;
+        let changes = system.columns.iter().map(|column| row.change(column).abs());
+        let own = row.change(&self.stages.influence.columns[self.joints[joint].contacts[0]][0]).abs();
+        let greatest = changes.fold(own, f64::max) * self.force();
+        if greatest > 0.0 { greatest } else { 1.0 }
+    }
+}
+
+/// Each pattern with each of these states of a contact.
+fn with_state(all: Vec<Pattern>, k: usize, states: &[ContactState]) -> Vec<Pattern> {
+    let each = |pattern: Pattern| {
+        states.iter().map(move |state| {
+            let mut pattern = pattern.clone();
+            pattern.states[k] = *state;
+            pattern
+        })
+    };
+    all.into_iter().flat_map(each).collect()
+}

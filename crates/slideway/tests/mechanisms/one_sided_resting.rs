@@ -1,0 +1,457 @@
+//! Contacts that may lift off and do not slide at the start: the states that `solve` finds, against
+//! `reference/one-sided-rest.toml` and against every native state of random systems in descriptor form.
+//!
+//! Unknowns are accelerations, hinge forces, the normal force and the friction of every contact along its u, and efforts. A
+//! corner sticks (`g'' = 0`, `v_t' = 0`), slips (`g'' = 0`, `T = -mu N s`) or is open (`N = T = 0`).
+
+use crate::answers::{contact, report_on};
+use crate::one_sided_systems::{System, random};
+use crate::random_mechanisms::cases;
+use nalgebra::{DMatrix, DVector, Vector2};
+use proptest::collection::vec;
+use proptest::prelude::*;
+use serde::Deserialize;
+use slideway::fault::FaultKind;
+use slideway::model::{Model, Settings};
+use slideway::report::{Report, Solution, SolveReport, Status};
+use slideway::solve::solve;
+
+const REFERENCE: &str = include_str!("../../../../reference/one-sided-rest.toml");
+const BOX: &str = include_str!("../../../../docs/src/examples/box-on-incline.toml");
+const LADDER: &str = include_str!("../../../../docs/src/examples/ladder.toml");
+
+#[derive(Deserialize)]
+struct Reference {
+    rest: Vec<Case>,
+}
+
+#[derive(Deserialize)]
+struct Case {
+    name: String,
+    #[serde(flatten)]
+    system: System,
+    states: Vec<Native>,
+}
+
+/// What belongs to each contact: normal force, friction along u, accelerations of gap and sliding.
+#[derive(Debug, Clone, Deserialize)]
+struct Native {
+    #[serde(rename = "N")]
+    normal: Vec<f64>,
+    #[serde(rename = "T")]
+    friction: Vec<f64>,
+    gap: Vec<f64>,
+    a: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Does {
+    Sticks,
+    Rubs(f64),
+    Opens,
+}
+
+/// The states of a contact: what it does, and the side that presses.
+fn options(system: &System, k: usize) -> Vec<(Does, f64)> {
+    let contact = &system.contacts[k];
+    let sign = system.sliding_velocity(contact).signum();
+    match contact.kind.as_str() {
+        "resting" => {
+            vec![(Does::Sticks, 1.0), (Does::Rubs(1.0), 1.0), (Does::Rubs(-1.0), 1.0), (Does::Opens, 1.0)]
+        }
+        "sliding" => vec![(Does::Rubs(sign), 1.0), (Does::Opens, 1.0)],
+        _ => vec![(Does::Rubs(sign), 1.0), (Does::Rubs(sign), -1.0)],
+    }
+}
+
+/// The equations of a pattern.
+fn equations(system: &System, pattern: &[(Does, f64)]) -> (DMatrix<f64>, DVector<f64>) {
+    let (bodies, hinges, contacts) = (3 * system.bodies.len(), 2 * system.hinges.len(), pattern.len());
+    let size = bodies + hinges + 2 * contacts + system.drives.len();
+    let (mut matrix, mut right) = (DMatrix::zeros(size, size), DVector::zeros(size));
+    for (index, body) in system.bodies.iter().enumerate() {
+        for (part, inertia) in [body.m, body.m, body.moment].into_iter().enumerate() {
+            matrix[(3 * index + part, 3 * index + part)] = inertia;
+        }
+        (0..2).for_each(|axis| right[3 * index + axis] = body.m * system.gravity[axis]);
+    }
+    for force in &system.forces {
+        let mut wrench = system.place(&force.body, force.at, Vector2::from(force.components));
+        if let Some(body) = system.body(&force.body) {
+            wrench[3 * body + 2] += force.couple;
+        }
+        right.iter_mut().zip(&wrench).for_each(|(own, part)| *own += part);
+    }
+    let mut constrain = |at: usize, row: &DVector<f64>, value: f64| {
+        matrix.view_mut((at, 0), (1, bodies)).copy_from(&row.transpose());
+        right[at] = value;
+    };
+    let mut forces: Vec<(usize, DVector<f64>)> = Vec::new();
+    let mut frictions: Vec<(usize, usize, f64)> = Vec::new();
+    let mut open: Vec<usize> = Vec::new();
+    for (index, hinge) in system.hinges.iter().enumerate() {
+        for (part, axis) in [Vector2::x(), Vector2::y()].into_iter().enumerate() {
+            let [a, b] = hinge.between.each_ref();
+            let row = system.place(a, hinge.at, axis) - system.place(b, hinge.at, axis);
+            let at = bodies + 2 * index + part;
+            constrain(
+                at,
+                &row,
+                system.centripetal(b, hinge.at, axis) - system.centripetal(a, hinge.at, axis),
+            );
+            forces.push((at, row));
+        }
+    }
+    for (k, (contact, (does, side))) in system.contacts.iter().zip(pattern).enumerate() {
+        let (at, tangential) = (bodies + hinges + 2 * k, bodies + hinges + 2 * k + 1);
+        let [normal, tangent] = [contact.normal(), contact.tangent()];
+        forces.push((at, system.relative(contact, normal)));
+        forces.push((tangential, system.relative(contact, tangent)));
+        if *does == Does::Opens {
+            open.extend([at, tangential]);
+            continue;
+        }
+        constrain(at, &system.relative(contact, normal), -system.gap_of_velocities(contact));
+        match does {
+            Does::Rubs(sign) => frictions.push((tangential, at, contact.mu * sign * side)),
+            _ => {
+                let own = |body: &str| system.centripetal(body, contact.at, tangent);
+                let row = system.relative(contact, tangent);
+                constrain(tangential, &row, own(&contact.guide) - own(&contact.body));
+            }
+        }
+    }
+    for (index, drive) in system.drives.iter().enumerate() {
+        let at = bodies + hinges + 2 * contacts + index;
+        let [direction, along] =
+            [drive.direction, drive.force_along].map(|axis| Vector2::from(axis).normalize());
+        forces.push((at, system.place(&drive.body, drive.force_at, along)));
+        let row = system.place(&drive.body, drive.at, direction);
+        constrain(at, &row, drive.acceleration - system.centripetal(&drive.body, drive.at, direction));
+    }
+    for (at, force) in forces {
+        matrix.view_mut((0, at), (bodies, 1)).copy_from(&-force);
+    }
+    for (row, normal, factor) in frictions {
+        (matrix[(row, row)], matrix[(row, normal)]) = (1.0, factor);
+    }
+    open.into_iter().for_each(|at| matrix[(at, at)] = 1.0);
+    (matrix, right)
+}
+
+/// All states that are isolated, and whether some pattern leaves forces open; nothing where rounding may decide about a state.
+fn native_states(system: &System) -> Option<(Vec<Native>, bool)> {
+    let (bodies, hinges) = (3 * system.bodies.len(), 2 * system.hinges.len());
+    let contacts = &system.contacts;
+    let mut patterns: Vec<Vec<(Does, f64)>> = vec![Vec::new()];
+    for k in 0..contacts.len() {
+        let options = options(system, k);
+        patterns = patterns
+            .into_iter()
+            .flat_map(|pattern| options.iter().map(move |one| [pattern.clone(), vec![*one]].concat()))
+            .collect();
+    }
+    let (mut states, mut leaves_open) = (Vec::new(), false);
+    for pattern in patterns {
+        let (matrix, right) = equations(system, &pattern);
+        let singular = matrix.clone().singular_values();
+        if singular.min() < 1e-11 * singular.max() {
+            leaves_open = true;
+            continue;
+        }
+        if singular.min() < 1e-4 * singular.max() {
+            return None;
+        }
+        let unknowns = matrix.lu().solve(&right)?;
+        let of = |k: usize, part: usize| unknowns[bodies + hinges + 2 * k + part];
+        let normal: Vec<f64> = (0..contacts.len()).map(|k| of(k, 0)).collect();
+        let friction: Vec<f64> = (0..contacts.len()).map(|k| of(k, 1)).collect();
+        let moves =
+            |k: usize, axis: Vector2<f64>| system.relative(&contacts[k], axis).dot(&unknowns.rows(0, bodies));
+        let gap = |k: usize| moves(k, contacts[k].normal()) + system.gap_of_velocities(&contacts[k]);
+        let slip = |k: usize| {
+            let axis = contacts[k].tangent();
+            let own = |body: &str| system.centripetal(body, contacts[k].at, axis);
+            moves(k, axis) + own(&contacts[k].body) - own(&contacts[k].guide)
+        };
+        let sizes = [1.0, 1.0].map(|one: f64| normal.iter().fold(one, |size, force| size.max(force.abs())));
+        let mut slacks = Vec::new();
+        for (k, (does, side)) in pattern.iter().enumerate() {
+            match does {
+                Does::Opens => slacks.push(gap(k)),
+                Does::Sticks => {
+                    let limit = contacts[k].mu_static.unwrap_or(contacts[k].mu) * normal[k];
+                    slacks.extend([normal[k], limit - friction[k].abs()].map(|slack| slack / sizes[0]));
+                }
+                Does::Rubs(sign) => {
+                    slacks.push(side * normal[k] / sizes[1]);
+                    if contacts[k].rests() {
+                        slacks.push(sign * slip(k));
+                    }
+                }
+            }
+        }
+        let least = slacks.iter().copied().fold(f64::INFINITY, f64::min);
+        if least.abs() < 1e-6 || least.is_nan() {
+            return None;
+        }
+        if least > 0.0 {
+            let open = |k: usize| pattern[k].0 == Does::Opens;
+            states.push(Native {
+                gap: (0..contacts.len()).map(|k| if open(k) { gap(k) } else { 0.0 }).collect(),
+                a: unknowns.rows(0, bodies).iter().copied().collect(),
+                normal,
+                friction,
+            });
+        }
+    }
+    Some((states, leaves_open))
+}
+
+fn is(solution: &Solution, system: &System, state: &Native, tolerance: f64) -> bool {
+    let near = |found: Vec<f64>, expected: &[f64]| {
+        let size = expected.iter().map(|value| value.abs()).fold(1.0, f64::max);
+        found.iter().zip(expected).all(|(found, value)| (found - value).abs() <= tolerance * size)
+    };
+    let contacts = || system.contacts.iter().map(|one| contact(solution, &one.name));
+    let accelerations = solution
+        .bodies
+        .iter()
+        .flat_map(|body| [body.acceleration[0], body.acceleration[1], body.angular_acceleration]);
+    near(contacts().map(|contact| contact.normal_force).collect(), &state.normal)
+        && near(contacts().map(|contact| -contact.friction_force).collect(), &state.friction)
+        && near(contacts().map(|contact| contact.gap_acceleration.unwrap_or(0.0)).collect(), &state.gap)
+        && near(accelerations.collect(), &state.a)
+}
+
+fn assert_states(report: &SolveReport, system: &System, states: &[Native], tolerance: f64, name: &str) {
+    let text = || format!("{name}: {states:#?}\n{:#?}\n{}", report.solutions, system.text());
+    assert_eq!(report.solutions.len(), states.len(), "{}", text());
+    for state in states {
+        let found = report.solutions.iter().filter(|solution| is(solution, system, state, tolerance));
+        assert_eq!(found.count(), 1, "{}", text());
+    }
+    assert!(report.solutions.iter().all(|solution| solution.residual < 1e-11), "{}", text());
+}
+
+#[test]
+fn the_reference_starts_in_these_states() {
+    for Case { name, system, states } in reference().rest {
+        assert_states(&report_on(&system.text()), &system, &states, 1e-8, &name);
+    }
+}
+
+fn reference() -> Reference {
+    toml::from_str(REFERENCE).unwrap()
+}
+
+/// An odd number of states where all contacts are at rest and no drive acts (theory, section 12).
+fn is_at_rest(system: &System) -> bool {
+    system.drives.is_empty() && system.contacts.iter().all(|contact| contact.rests() || contact.mu == 0.0)
+}
+
+/// So many random systems: those of the suite, or as many as `SLIDEWAY_RESTING` says.
+fn count() -> u32 {
+    std::env::var("SLIDEWAY_RESTING").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
+}
+
+proptest! {
+    #![proptest_config(cases(count()))]
+
+    /// One or two bodies whose corners are at rest, slide or are pins in slots.
+    #[test]
+    fn random_systems_start_in_their_native_states(
+        numbers in vec(-1.0_f64..1.0, 60),
+        two in any::<bool>(),
+        hinged in any::<bool>(),
+        driven in any::<bool>(),
+        slides in any::<bool>(),
+        more in 0..2_usize,
+    ) {
+        let (bodies, contacts) = if two { (2, 2 + more) } else { (1, 1 + more) };
+        let Some(mut system) = random(&numbers, bodies, contacts, [hinged, driven && slides]) else { return Ok(()) };
+        for (k, contact) in system.contacts.iter_mut().enumerate() {
+            if contact.kind == "bilateral" && !slides {
+                contact.mu = 0.0;
+            } else if contact.kind == "sliding" && (k == 0 || !slides) {
+                contact.kind = "resting".to_owned();
+                contact.mu_static = Some(contact.mu * (1.0 + 0.2 * (1.0 + numbers[k]))).filter(|_| more == 0);
+            }
+        }
+        let rates = if slides { numbers.clone() } else { vec![0.0; 6] };
+        let Some(system) = system.with_rates(rates.into_iter()) else { return Ok(()) };
+        prop_assume!(system.contacts.iter().any(|contact| contact.rests()));
+        let rows = system.rows_with_drives();
+        let values = DMatrix::from_columns(&rows).singular_values();
+        prop_assume!(system.joint_rows().len() < 3 * bodies && rows.len() <= 3 * bodies);
+        prop_assume!(values.min() > 0.05 * values.max());
+        let slides = |one: &crate::one_sided_systems::Contact| {
+            one.rests() || one.mu == 0.0 || system.sliding_velocity(one).abs() > 1e-3
+        };
+        prop_assume!(system.contacts.iter().all(slides));
+        let Some((states, leaves_open)) = native_states(&system) else { return Err(TestCaseError::reject("rounding")) };
+        let report = report_on(&system.text());
+        prop_assert!(!report.at_rest.is_empty());
+        prop_assert!(leaves_open || report.continua.is_empty(), "{}", system.text());
+        assert_states(&report, &system, &states, 1e-7, "random");
+        if report.every_load_has_one_state == Some(true) {
+            prop_assert_eq!((states.len(), leaves_open), (1, false), "{}", system.text());
+        }
+        if !leaves_open && is_at_rest(&system) && system.contacts.iter().all(|one| one.mu_static.is_none()) {
+            prop_assert_eq!(states.len() % 2, 1, "{}", system.text());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(cases(200))]
+
+    /// A block whose centre of mass, load and friction are arbitrary: an odd number of states; one, where it is said that every
+    /// load has one.
+    #[test]
+    fn a_block_at_rest_has_an_odd_number_of_states(
+        place in [-0.3_f64..0.3, 0.02_f64..0.5],
+        load in [-20.0_f64..20.0, -20.0_f64..20.0, -4.0_f64..4.0],
+        mu in 0.05_f64..4.0,
+    ) {
+        let text = BOX.replace("rate = \"-1 m/s\"", "").replace(
+            "C = [\"-h/2*sin(slope)\", \"h/2*cos(slope)\"]",
+            &format!("C = {place:?}"),
+        );
+        let push = format!(
+            "[loads.push]\ntype = \"force\"\nat = \"box.C\"\ncomponents = [{:?}, {:?}]\n[loads.turn]\ntype = \"torque\"\nbody = \"box\"\nmoment = {:?}\n",
+            load[0], load[1], load[2]
+        );
+        let report = at_rest(&(text + &push), &[("slope", "0 deg"), ("mu", &mu.to_string())]);
+        prop_assume!(report.solutions.iter().all(|solution| !solution.on_boundary));
+        prop_assert_eq!(report.solutions.len() % 2, 1, "{:#?}", report.solutions);
+        if report.every_load_has_one_state == Some(true) {
+            prop_assert_eq!(report.solutions.len(), 1);
+        }
+    }
+}
+
+fn at_rest(text: &str, list: &[(&str, &str)]) -> SolveReport {
+    let settings = list.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    solve(&Model::parse(text).unwrap().with(&settings).unwrap()).unwrap()
+}
+
+/// A box on an incline tips, tips while it slides, or stays: the numbers of the reference.
+#[test]
+fn a_box_starts_as_the_reference_says() {
+    let text = BOX.replace("rate = \"-1 m/s\"", "");
+    let tips = at_rest(&text, &[("b", "100 mm"), ("slope", "25 deg"), ("mu", "0.8")]);
+    assert_eq!(
+        tips.answer(),
+        "It starts in one way. base: on its left corner, the right one opens: it tips, sticks. Every load has exactly one state."
+    );
+    let rear = contact(&tips.solutions[0], "base.rear");
+    assert!(
+        (rear.normal_force - 9.230_261_503).abs() < 1e-8
+            && (rear.friction_force + 2.788_356_701).abs() < 1e-8
+    );
+    let front = contact(&tips.solutions[0], "base.front");
+    assert!((front.gap_acceleration.unwrap() - 0.678_764_223_5).abs() < 1e-8);
+    let both = at_rest(&text, &[("b", "100 mm"), ("slope", "40 deg"), ("mu", "0.3")]);
+    assert_eq!(both.status, Status::One);
+    assert!((contact(&both.solutions[0], "base.rear").normal_force - 7.789_831_206).abs() < 1e-8);
+    assert!(
+        (contact(&both.solutions[0], "base.front").gap_acceleration.unwrap() - 0.549_870_438_1).abs() < 1e-8
+    );
+    let stays = at_rest(&text, &[]);
+    assert_eq!(
+        stays.answer(),
+        "It starts in one way. base: closed, sticks. Every load has exactly one state."
+    );
+    assert!(stays.solutions[0].coordinates[0].acceleration.abs() < 1e-12);
+    assert_eq!(stays.solutions[0].oriented_determinant.signum(), 1.0);
+}
+
+/// Painlevé's rod of the reference at rest: one state for every load up to the critical friction 4/3.
+#[test]
+fn a_rod_at_rest_has_one_state_for_every_load_up_to_the_critical_friction() {
+    let mut system = reference().rest.remove(0).system;
+    for (mu, unique) in [(1.333, true), (1.334, false)] {
+        system.contacts[0].mu = mu;
+        let report = report_on(&system.text());
+        assert_eq!(report.every_load_has_one_state, Some(unique), "{mu}");
+        assert!(!unique || report.solutions.len() == 1);
+    }
+}
+
+/// A box on a cart that is braked while it runs: it tips over its front edge.
+#[test]
+fn a_box_on_a_braked_cart_tips() {
+    let report = at_rest(CART, &[]);
+    let [solution] = report.solutions.as_slice() else { panic!("{report:?}") };
+    let found = |name: &str| contact(solution, name).normal_force;
+    assert!(
+        (found("rail.rear") - 23.972_297_3).abs() < 1e-7
+            && (found("rail.front") - 36.295_270_27).abs() < 1e-7
+    );
+    assert!((found("base.front") - 21.027_567_57).abs() < 1e-7 && found("base.rear") == 0.0);
+    assert!((contact(solution, "base.rear").gap_acceleration.unwrap() - 1.407_567_568).abs() < 1e-8);
+    assert!((solution.coordinates[0].acceleration + 6.440_608_108).abs() < 1e-8);
+}
+
+const CART: &str = r#"
+gravity = "9.81 m/s^2"
+[points]
+C = [0, -0.05]
+B = [0, 0.2]
+brake = [0, -0.08]
+[bodies.cart]
+points = ["C", "brake"]
+mass = 4
+moment_of_inertia = 0.1
+centre_of_mass = "C"
+[bodies.box]
+points = ["B"]
+mass = 2
+moment_of_inertia = 0.02833333333333334
+centre_of_mass = "B"
+[joints.rail]
+type = "block_slider"
+block = "cart"
+at = [0, -0.1]
+along = "0 deg"
+length = 0.4
+mu = 0.05
+[joints.base]
+type = "block_on_face"
+block = "box"
+guide = "cart"
+at = [0, 0]
+along = "0 deg"
+length = 0.1
+mu = 0.6
+[loads.brake]
+type = "force"
+at = "cart.brake"
+components = [-30, 0]
+[coordinates.x]
+slide = "rail"
+rate = 1
+[coordinates.y]
+slide = "base"
+rate = 0
+"#;
+
+/// Both ends of the ladder stick: three equations for four forces, whose ends are those of `hold`.
+#[test]
+fn the_forces_of_a_ladder_are_a_continuum() {
+    let report = at_rest(LADDER, &[]);
+    assert_eq!((report.status, report.solutions.len(), report.continua.len()), (Status::Continuum, 0, 1));
+    let vertices: Vec<f64> = report.continua[0].vertices.iter().map(|forces| forces[0]).collect();
+    let least = vertices.iter().copied().fold(f64::INFINITY, f64::min);
+    let greatest = vertices.iter().copied().fold(0.0, f64::max);
+    assert!((least - 817.726_924_8).abs() < 1e-6 && (greatest - 975.379_260_7).abs() < 1e-6, "{vertices:?}");
+}
+
+/// Two-sided contacts with friction at rest beside them are refused, and so are more states than are tried.
+#[test]
+fn what_else_rests_is_refused() {
+    let faults = solve(&Model::parse(&CART.replace("rate = 1", "rate = 0")).unwrap()).unwrap_err();
+    let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
+    assert!(matches!(kinds.as_slice(), [FaultKind::ZeroSlidingVelocity { .. }]), "{faults}");
+}
