@@ -31,6 +31,7 @@ mod loads;
 mod margins;
 mod no_sliding;
 mod one_sided;
+mod one_sided_shapes;
 mod one_sided_systems;
 mod positions;
 mod preload_gap;
