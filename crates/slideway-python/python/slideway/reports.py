@@ -392,13 +392,26 @@ static friction.
 without inertia.
 - `"does_not_hold"`: It cannot stay at rest; motions without inertia keep its accelerations from being known."""
 
-JointForm = Literal["hinge", "block slider", "guided slider", "pin in slot"]
+JointForm = Literal[
+    "hinge",
+    "block slider",
+    "guided slider",
+    "pin in slot",
+    "corner on face",
+    "block on face",
+    "disc on face",
+    "disc on disc",
+]
 """The kind of a joint.
 
 - `"hinge"`: A hinge.
 - `"block slider"`: A block of some length in a guide, with contacts at both ends.
 - `"guided slider"`: A block that its guide holds straight, with one contact and a couple.
-- `"pin in slot"`: A pin in a slot."""
+- `"pin in slot"`: A pin in a slot.
+- `"corner on face"`: A corner on a face, which it may leave.
+- `"block on face"`: A block on a face, which both of its corners may leave.
+- `"disc on face"`: A disc on a face, which it may leave.
+- `"disc on disc"`: A disc on a disc or in a hole, which it may leave."""
 
 Known = Literal["proven", "closed_form", "sampled", "undecided"]
 """How the numbers of solutions in an interval are known.
@@ -461,6 +474,8 @@ ModeEndCause = Literal[
     "locking",
     "without_bound",
     "side_change",
+    "lifts_off",
+    "touches",
     "gap_closes",
     "tipping",
     "greatest_reaction",
@@ -479,6 +494,8 @@ solution: friction locks the mechanism.
 - `"without_bound"`: Its determinant vanishes, so its normal forces grow without bound, but beyond there is
 another solution.
 - `"side_change"`: A normal force vanishes: a contact changes side.
+- `"lifts_off"`: A normal force vanishes: a contact that was closed lifts off.
+- `"touches"`: The acceleration of a gap vanishes: a contact that opened stays closed.
 - `"gap_closes"`: A preload gap closes.
 - `"tipping"`: A guided slider tips.
 - `"greatest_reaction"`: A normal force reaches the greatest one that is allowed.
@@ -934,6 +951,8 @@ class Contact(Record):
     deflection: float | None = None
     """Of a contact that shares its load with others: by how much the block is displaced against its guide there,
     towards +n (m); within its play where the contact is open."""
+    gap_acceleration: float | None = None
+    """Of a contact that lifts off, whose `side` is -1: the acceleration of its gap (m/s^2)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1848,6 +1867,8 @@ class JointRelease(Record):
 class JointSummary(Record):
     """A joint."""
 
+    _absent = {"gaps": _mixins.EMPTY}
+
     name: str
     """Its name."""
     kind: JointForm
@@ -1868,6 +1889,9 @@ class JointSummary(Record):
     """The stops at the least and at the greatest displacement, if there are any."""
     friction_radii: tuple[float, float] | None = None
     """Radii of the friction circle of a hinge with friction (m): while it turns, and at rest."""
+    gaps: NDArray[np.float64] = field(default_factory=lambda: _mixins.EMPTY)
+    """The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both
+    are."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -3186,6 +3210,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "Frictionless": {"efforts": "array"},
     "HeldFriction": {"at": "array", "along": "array"},
     "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array", "eta_positive": "arrays", "eta_negative": "arrays"},
+    "JointSummary": {"gaps": "array"},
     "LimitsReport": {"between_faces_at": "array"},
     "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},
     "RawSolution": {"z": "array", "w": "array", "u": "array", "x": "array", "y": "array", "normal_forces": "array"},

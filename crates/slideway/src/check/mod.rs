@@ -169,9 +169,6 @@ pub struct JointSummary {
     pub positive: Option<String>,
     /// Displacement of a sliding joint (m).
     pub displacement: Option<f64>,
-    /// The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both are.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub gaps: Vec<f64>,
     /// Supported length of a block slider (m).
     pub overlap: Option<f64>,
     /// The stops at the least and at the greatest displacement, if there are any.
@@ -180,6 +177,9 @@ pub struct JointSummary {
     /// Radii of the friction circle of a hinge with friction (m): while it turns, and at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_radii: Option<[f64; 2]>,
+    /// The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<f64>,
 }
 
 /// The kind of a joint.

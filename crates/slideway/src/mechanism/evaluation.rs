@@ -442,6 +442,7 @@ pub(super) fn size(mechanism: &Mechanism) -> f64 {
             JointKind::Slider(slider) => {
                 let half = slider.tangent * (slider.length / 2.0);
                 places.extend([slider.at - half, slider.at + half]);
+                places.extend(slider.round.map(|round| Vector2::from(round.centre)));
             }
         }
     }

@@ -108,7 +108,7 @@ fn assert_states(report: &SolveReport, system: &System, states: &[State], tolera
             report.solutions.iter().filter(|solution| is(solution, system, state, tolerance)).collect();
         assert_eq!(found.len(), 1, "{name}: {state:?} in {:#?}\n{}", report.solutions, system.text());
         let solution = found[0];
-        assert!(solution.residual < 1e-12, "{name}: {}", solution.residual);
+        assert!(solution.residual < 1e-12, "{name}: {} {state:?}\n{}", solution.residual, system.text());
         for (k, one) in system.contacts.iter().enumerate() {
             let found = contact(solution, &one.name);
             assert_eq!(found.gap_acceleration.is_some(), state.gap[k] != 0.0, "{name}: {}", one.name);
@@ -490,6 +490,15 @@ fn a_drawing_in_code_has_them() {
     drawing.slide("x", base).rate(-1.0);
     let report = report_on(&drawing.to_toml());
     assert_eq!(contact(only(&report), "base.front").side, -1);
+    let mut drawing = Drawing::new();
+    drawing.gravity(GRAVITY);
+    let body = drawing.body("disc").mass(1.0).inertia(0.02).centre([0.0, 0.2]).id();
+    let foot = drawing.disc_on_face("foot", body, Frame::Ground).at([0.0, 0.2]).radius(0.2).mu(0.3).id();
+    drawing.slide("x", foot).rate(1.0);
+    drawing.rotation("turn", body);
+    let report = report_on(&drawing.to_toml());
+    assert_eq!(foot.contact().index(), 0);
+    assert_close(contact(only(&report), "foot").friction_force, 0.3 * GRAVITY, 1.0, 1e-12);
 }
 
 /// Without friction, too, what would have to pull lifts off: a corner beneath a body that is drawn upwards needs no more than to lift it.

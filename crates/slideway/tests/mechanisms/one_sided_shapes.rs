@@ -6,7 +6,7 @@ use crate::one_sided::{BOX, GRAVITY, fault, gap};
 use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, limits};
 use slideway::model::{Model, Settings};
-use slideway::report::{Proof, Status, Verdict};
+use slideway::report::{Persistence, Proof, Status, Uncertainty, Verdict};
 
 const PEG: &str = include_str!("../../../../docs/src/examples/peg-in-hole.toml");
 const CAM: &str = include_str!("../../../../docs/src/examples/cam-and-spring.toml");
@@ -152,7 +152,7 @@ fn what_is_apart_does_not_press() {
     // Turned the other way the front corner is in the face, by b sin(5 deg).
     let kind = fault(&apart("[\"rear\"]", &turn.replace("5 deg", "-5 deg")));
     let FaultKind::Penetration { joint, depth } = kind else { panic!("{kind}") };
-    assert_eq!((joint.as_str(), depth.as_str()), ("base", "17.43 mm"));
+    assert_eq!((joint.as_str(), depth.as_str()), ("base", "0.017431 m"));
     let flat = fault(&apart("[\"rear\"]", "[coordinates.turn]\nrotation = \"box\"\n"));
     assert!(matches!(flat, FaultKind::TouchesThoughApart { .. }), "{flat}");
     // Apart as a whole it falls.
@@ -165,16 +165,19 @@ fn what_is_apart_does_not_press() {
     assert!(text.contains("contact"), "{text}");
 }
 
-/// The bounds of a coefficient of friction: what holds for all of them is proven.
+/// The box slides flat up to `mu = b/h` = 0.5, and tips beyond: one state for each value.
 #[test]
 fn friction_within_bounds() {
     let model = Model::parse(BOX).unwrap();
-    let found = |mu: &str| report_with(&model, &parameters(&[("mu", mu)]));
-    let report = found("0.3..0.4");
-    assert_eq!(report.complete, Proof::Proven, "{:?}", report.open);
-    let rear = contact(only(&report), "base.rear").normal_force_bounds.unwrap();
-    let cos = 20_f64.to_radians().cos();
-    for (bound, mu) in rear.into_iter().zip([0.3, 0.4]) {
-        assert_close(bound, GRAVITY * cos / 2.0 * (1.0 + mu * 0.4 / 0.2), 1.0, 1e-6);
-    }
+    let found = |mu: &str| report_with(&model, &parameters(&[("mu", mu)])).uncertainty.unwrap();
+    let persistence = |uncertainty: &Uncertainty, pattern: &str| {
+        uncertainty.modes.iter().find(|mode| mode.pattern == pattern).map(|mode| mode.persistence)
+    };
+    let flat = found("0.3..0.4");
+    assert_eq!((flat.least_solutions, flat.most_solutions), (1, Some(1)));
+    assert_eq!(persistence(&flat, "++"), Some(Persistence::AllValues));
+    let across = found("0.45..0.55");
+    assert_eq!((across.least_solutions, across.most_solutions), (1, Some(1)));
+    assert_eq!(persistence(&across, "++"), Some(Persistence::SomeValues));
+    assert_eq!(persistence(&across, "-+"), Some(Persistence::SomeValues));
 }
