@@ -108,7 +108,9 @@ fn assert_states(report: &SolveReport, system: &System, states: &[State], tolera
             report.solutions.iter().filter(|solution| is(solution, system, state, tolerance)).collect();
         assert_eq!(found.len(), 1, "{name}: {state:?} in {:#?}\n{}", report.solutions, system.text());
         let solution = found[0];
-        assert!(solution.residual < 1e-12, "{name}: {} {state:?}\n{}", solution.residual, system.text());
+        // Rounding, amplified where a drive is nearly powerless.
+        let rounding = 1e-12_f64.max(f64::EPSILON * report.condition);
+        assert!(solution.residual < rounding, "{name}: {}\n{}", solution.residual, system.text());
         for (k, one) in system.contacts.iter().enumerate() {
             let found = contact(solution, &one.name);
             assert_eq!(found.gap_acceleration.is_some(), state.gap[k] != 0.0, "{name}: {}", one.name);
