@@ -427,6 +427,10 @@ pub enum FaultKind {
     LiftsWithoutInertia { contacts: Vec<String>, motion: String },
     #[error("{contact} is not on its face: it is off by {gap}")]
     OffFace { contact: String, gap: String },
+    #[error("{joint} is apart from its face, but here it would be {depth} inside it")]
+    Penetration { joint: String, depth: String },
+    #[error("{joint} is said to be apart from its face, but it touches it, and does not leave it")]
+    TouchesThoughApart { joint: String },
     #[error("nothing says how firmly these press fits grip: {}", listed(contacts))]
     PressFitWithoutStiffness { contacts: Vec<String> },
     #[error("a guided slider with a press fit is not computed: {}", listed(contacts))]
@@ -652,6 +656,11 @@ impl FaultKind {
                 "give mass to the bodies that nothing else holds".to_owned(),
             ),
             Self::OffFace { .. } => Some("draw it on the line through both ends of its face".to_owned()),
+            Self::Penetration { .. } => Some(
+                "change the coordinates until there is a gap; what touches is `closed = true`, and needs one coordinate less"
+                    .to_owned(),
+            ),
+            Self::TouchesThoughApart { .. } => Some("leave out `closed`: it touches".to_owned()),
             Self::PreloadOfPressFit { .. } => Some("give one `preload` for both faces".to_owned()),
             Self::PlayChangesSign { .. } => Some(
                 "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"

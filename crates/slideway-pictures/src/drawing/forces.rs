@@ -7,7 +7,7 @@ use super::scene::{Class, Point, Shape};
 use super::slide::Slide;
 use super::{ContactForces, Painter};
 use slideway::ids::{ContactId, Frame, JointId};
-use slideway::mechanism::Mechanism;
+use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::SliderKind;
 
 /// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
@@ -25,6 +25,9 @@ const PLACES: [(f64, f64); 8] = [
     (25.0, 17.0),
     (-25.0, 17.0),
 ];
+/// Length of the arrow of an opening contact, and the radius of its dot.
+const OPENING: f64 = 34.0;
+const DOT: f64 = 4.0;
 /// Length of the arrow of a velocity.
 const VELOCITY: f64 = 40.0;
 
@@ -97,6 +100,37 @@ impl Painter<'_> {
         let length = forces.friction.abs() * scale;
         let text = self.shown(forces.friction.abs(), "N");
         self.arrow_of_force(Class::Friction, (from, false), direction * length, text);
+    }
+
+    /// The gap of each corner or disc that is apart from its face, from the one to the other.
+    pub(super) fn gaps(&mut self) {
+        let mechanism = self.mechanism;
+        for (joint, slider) in sliders(mechanism) {
+            let Some(slide) = self.slide(joint) else { continue };
+            let rim = if slide.is_disc { 0.5 * slide.height } else { 0.0 };
+            for ([gap, _], (position, _)) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {
+                let corner = self.attached(&Attachment { frame: slider.block, position: *position });
+                let from = corner - slide.guide.across * rim;
+                let to = from - slide.guide.across * (gap * self.view.scale);
+                self.line(Class::Leader, vec![from, to]);
+                let value = self.shown(gap, "m");
+                self.value_along(Class::Dimension, value, [from, to], slide.guide.along);
+            }
+        }
+    }
+
+    /// A hollow dot at each contact that lifts off, and an arrow with the acceleration of its gap, which has no scale.
+    pub(super) fn openings(&mut self) {
+        for index in 0..self.states.contacts.len().min(self.mechanism.contacts.len()) {
+            let Some(acceleration) = self.states.contacts[index].gap_acceleration else { continue };
+            let Some(slide) = self.slide(self.mechanism.contacts[index].joint) else { continue };
+            let from = self.face(&slide, ContactId(index), 1.0);
+            let to = from + slide.guide.across * (OPENING * slide.action());
+            self.scene.add(Class::Opening, Shape::Arrow { from, to });
+            self.circle(Class::Opening, from, DOT);
+            let value = self.shown(acceleration, "m/s^2");
+            self.value_along(Class::Opening, value, [from, to], slide.guide.along);
+        }
     }
 
     /// The velocity of what moves in a joint (m/s), if it has an arrow: of the block, or of the guide past a block on

@@ -243,7 +243,8 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> 
             | Class::ContactForce
             | Class::Load
             | Class::Drive
-            | Class::Velocity => IMPORTANT,
+            | Class::Velocity
+            | Class::Opening => IMPORTANT,
             Class::Dimension => 2.0 * IMPORTANT,
             Class::Hatch => 3.0,
             Class::Slot | Class::Cone | Class::Overlap => 0.4,

@@ -15,7 +15,7 @@
 
 use super::ContactStates;
 use nalgebra::Vector2;
-use slideway::ids::{BodyId, Frame, JointId};
+use slideway::ids::{BodyId, ContactId, Frame, JointId};
 use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
 use slideway::model::outline::polygon;
 use slideway::model::{CarriedBy, SliderKind};
@@ -108,7 +108,8 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
 }
 
 fn may_lift_off(mechanism: &Mechanism, slider: &Slider) -> bool {
-    slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens)
+    let opens = |contact: &ContactId| mechanism.contacts[contact.index()].opens;
+    !slider.apart.is_empty() || slider.contacts.iter().any(opens)
 }
 
 fn of_geometry(mechanism: &Mechanism, slider: &Slider) -> Look {

@@ -81,6 +81,8 @@ pub struct ContactState {
     /// By how much the block is displaced against its guide, towards +n (m), if that is known: where redundant
     /// contacts share a load.
     pub(crate) deflection: Option<f64>,
+    /// The acceleration of its gap (m/s^2), if it lifts off.
+    pub(crate) gap_acceleration: Option<f64>,
     /// Whether such a contact touches neither face.
     pub(crate) is_open: bool,
 }
@@ -107,6 +109,7 @@ impl ContactStates {
                 couple: contact.couple.unwrap_or(0.0),
             }),
             deflection: contact.deflection,
+            gap_acceleration: contact.gap_acceleration,
             is_open: contact.deflection.is_some() && sign == '0',
         };
         Self {
@@ -223,7 +226,9 @@ pub fn scene(
         painter.contact_forces();
         painter.pin_forces();
         painter.open_contacts();
+        painter.openings();
     }
+    painter.gaps();
     painter.loads();
     if options.dimensions {
         painter.dimensions();

@@ -69,6 +69,8 @@ pub enum Class {
     Drive,
     /// A sliding velocity.
     Velocity,
+    /// The acceleration of the gap of a contact that lifts off.
+    Opening,
     /// A dimension.
     Dimension,
     /// A line from a label to what it names.

@@ -2,6 +2,7 @@
 
 use super::looks::Look;
 use super::outline::Local;
+use super::scene::Point;
 use slideway::ids::Frame;
 use slideway::model::SliderKind;
 
@@ -40,8 +41,35 @@ pub(super) struct Slide {
     pub(super) height: f64,
     /// Play on either side, the greatest where it differs.
     pub(super) gap: f64,
+    /// Whether the block is a disc: of its height, about its middle.
+    pub(super) is_disc: bool,
+    /// The round face of the guide, if it is not straight.
+    pub(super) round: Option<RoundFace>,
     /// The contacts of a guide that shares its load, by their places along it; none of any other.
     pub(super) stations: Vec<Station>,
+}
+
+/// A round face.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct RoundFace {
+    pub(super) centre: Point,
+    pub(super) radius: f64,
+    /// Whether it is a hole.
+    pub(super) inside: bool,
+}
+
+impl RoundFace {
+    /// Its line, with the material on its left as one looks at the drawing.
+    pub(super) fn line(&self) -> Vec<Point> {
+        const CORNERS: i32 = 72;
+        let sense = if self.inside { 1.0 } else { -1.0 };
+        let corner = |index: i32| {
+            let (sin, cos) =
+                (sense * std::f64::consts::TAU * f64::from(index) / f64::from(CORNERS)).sin_cos();
+            self.centre + Point::new(cos, sin) * self.radius
+        };
+        (0..=CORNERS).map(corner).collect()
+    }
 }
 
 /// A stop or a pad, in places along the tangent of its guide from the middle of that.

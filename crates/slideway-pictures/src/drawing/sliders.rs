@@ -3,7 +3,7 @@
 use super::looks::{Look, corners, on_rail_of, sliders};
 use super::outline::{Local, capsule, edge, reach_along, turned, upper_side};
 use super::scene::{Class, Point};
-use super::slide::{PIN, SUPPORT, Slide, Station, WALL};
+use super::slide::{PIN, RoundFace, SUPPORT, Slide, Station, WALL};
 use super::{Painter, View};
 use slideway::configuration::Configuration;
 use slideway::ids::{ContactId, Frame, JointId};
@@ -62,6 +62,9 @@ impl Slide {
     /// The outline of the outer part, with its walls.
     pub(super) fn housing(&self) -> Vec<Point> {
         let (_, local, [from, to]) = self.outer();
+        if let Some(round) = &self.round {
+            return round.line();
+        }
         let end = |is_open: bool| if is_open || self.around { 0.0 } else { WALL };
         match self.look {
             Look::Face(side) => {
@@ -106,6 +109,9 @@ impl Slide {
     /// The face of ground on which the block rests, if there is one.
     fn floor(&self) -> Option<[Point; 2]> {
         let Look::Face(side) = self.look else { return None };
+        if self.round.is_some() {
+            return None;
+        }
         let across = -side * self.half_channel();
         (self.guide_frame == Frame::Ground).then(|| self.guide_reach.map(|end| self.guide.at(end, across)))
     }
@@ -217,8 +223,12 @@ impl Painter<'_> {
     fn slide_of(&self, joint: JointId, slider: &Slider) -> Slide {
         let look = self.looks[joint.index()];
         let height = self.drawn_height(slider, look);
-        let lift = if let Look::Face(side) = look { 0.5 * side * height } else { 0.0 };
-        let [block, guide] = [slider.block, slider.guide].map(|frame| self.local(frame, slider, lift));
+        let is_disc = slider.kind == SliderKind::Pin && slider.height > 0.0;
+        // The middle of a block is on its face, that of a disc above it.
+        let lift = if let (Look::Face(side), false) = (look, is_disc) { 0.5 * side * height } else { 0.0 };
+        let drawn_gap = slider.apart.first().map_or(0.0, |(_, gap)| gap * self.view.scale);
+        let [block, guide] = [(slider.block, lift), (slider.guide, lift - drawn_gap)]
+            .map(|(frame, lift)| self.local(frame, slider, lift));
         let is_belt = look == Look::Rollers;
         // What is seen of a belt stays where its rollers are.
         let block = if is_belt { guide } else { block };
@@ -266,6 +276,12 @@ impl Painter<'_> {
             torn: [0, 1].map(|end| open[end] && own.is_none_or(|own| own[end] <= 0.0)),
             stops: [None; 2],
             height,
+            is_disc,
+            round: slider.round.map(|round| RoundFace {
+                centre: self.attached(&Attachment { frame: slider.guide, position: round.centre.into() }),
+                radius: round.radius * scale,
+                inside: round.inside,
+            }),
             gap: if look.has_play() { gap } else { 0.0 },
             stations,
         };
@@ -290,6 +306,7 @@ impl Painter<'_> {
         let is_nut = |body| corners(self.mechanism, body).is_none();
         match look {
             Look::Flank(_) => 0.0,
+            _ if slider.kind == SliderKind::Pin && slider.height > 0.0 => slider.height * scale,
             Look::Face(_) if slider.block.body().is_some_and(is_nut) => {
                 (NUT * slider.length * scale).clamp(LEAST_HEIGHT, HIGHEST_NUT)
             }
@@ -314,8 +331,13 @@ impl Painter<'_> {
     /// The middle of the block as a place of a frame, moved by `lift` across the guide, with the axes of the
     /// guide turned with it.
     fn local(&self, frame: Frame, slider: &Slider, lift: f64) -> Local {
-        let middle = Attachment { frame, position: slider.at };
-        let tangent = self.configuration.direction(frame, slider.tangent);
+        // A round guide is where its block is.
+        let of_block = if slider.round.is_some() { slider.block } else { frame };
+        let middle = Attachment { frame: of_block, position: slider.at };
+        let tangent = match slider.round {
+            Some(_) => self.configuration.slide(self.mechanism, slider).tangent,
+            None => self.configuration.direction(frame, slider.tangent),
+        };
         let across = self.view.direction(rot90(tangent));
         let middle = self.view.place(self.configuration.position(self.mechanism, &middle));
         Local { origin: middle + across * lift, along: self.view.direction(tangent), across }
@@ -386,6 +408,12 @@ impl Painter<'_> {
 
     fn walls(&mut self, slide: &Slide) {
         let (_, _, reach) = slide.outer();
+        if let Some(round) = &slide.round {
+            let line = round.line();
+            self.line(Class::Wall, line.clone());
+            line.windows(2).for_each(|piece| self.hatching(piece[0], piece[1]));
+            return;
+        }
         // n points to the left of u in a world with y upwards, and y points down here: the wall at +n has its
         // outer side to the left of the way along u.
         let block_side = if let Look::Face(side) = slide.look { side } else { 0.0 };
@@ -463,6 +491,7 @@ impl Painter<'_> {
                     self.area(Class::Pin, shoe.rectangle([-SHOE, SHOE], [-PIN, PIN]));
                     self.circle(Class::Hinge, place, 0.5 * PIN);
                 }
+                _ if slide.is_disc => self.circle(Class::Edge, place, 0.5 * slide.height),
                 _ if slide.kind == SliderKind::Pin => {
                     let class = if slide.block_frame == Frame::Ground { Class::Fixed } else { Class::Pin };
                     self.circle(class, place, PIN);

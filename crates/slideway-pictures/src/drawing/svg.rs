@@ -174,6 +174,7 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Break => "s-break",
         Class::Drive => "s-drive",
         Class::Velocity => "s-velocity",
+        Class::Opening => "s-opening",
         Class::Dimension => "s-dimension",
         Class::Leader => "s-leader",
         Class::Words => "s-words",
@@ -199,7 +200,7 @@ pub struct Colour {
     pub(crate) load: String,
     /// Velocities.
     pub(crate) velocity: String,
-    /// Parts that jam.
+    /// Parts that jam, and contacts that open.
     pub(crate) warning: String,
 }
 
@@ -280,6 +281,8 @@ pub fn rules(colour: &Colour) -> String {
         format!("fill: {friction}; fill-opacity: 0.3; stroke: {friction}; stroke-width: 1.2;"),
     );
     rule(".s-jammed-corner", format!("fill: {warning}; {}", pen(background, 1.2)));
+    rule(".s-opening", format!("fill: {warning}; {}", pen(warning, 2.0)));
+    rule("circle.s-opening", format!("fill: {background};"));
     rule(".s-break", format!("fill: none; {}", pen(ink, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));

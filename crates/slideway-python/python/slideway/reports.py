@@ -400,6 +400,8 @@ JointForm = Literal[
     "pin in slot",
     "corner on face",
     "block on face",
+    "disc on face",
+    "disc on disc",
 ]
 """The kind of a joint.
 
@@ -408,7 +410,9 @@ JointForm = Literal[
 - `"guided slider"`: A block that its guide holds straight, with one contact and a couple.
 - `"pin in slot"`: A pin in a slot.
 - `"corner on face"`: A corner on a face, which it may leave.
-- `"block on face"`: A block on a face, which both of its corners may leave."""
+- `"block on face"`: A block on a face, which both of its corners may leave.
+- `"disc on face"`: A disc on a face, which it may leave.
+- `"disc on disc"`: A disc on a disc or in a hole, which it may leave."""
 
 Known = Literal["proven", "closed_form", "sampled", "undecided"]
 """How the numbers of solutions in an interval are known.
@@ -1886,6 +1890,8 @@ class JointRelease(Record):
 class JointSummary(Record):
     """A joint."""
 
+    _absent = {"gaps": _mixins.EMPTY}
+
     name: str
     """Its name."""
     kind: JointForm
@@ -1906,6 +1912,9 @@ class JointSummary(Record):
     """The stops at the least and at the greatest displacement, if there are any."""
     friction_radii: tuple[float, float] | None = None
     """Radii of the friction circle of a hinge with friction (m): while it turns, and at rest."""
+    gaps: NDArray[np.float64] = field(default_factory=lambda: _mixins.EMPTY)
+    """The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both
+    are."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -3232,6 +3241,7 @@ HINTS: Final[Mapping[str, Mapping[str, str]]] = {
     "Frictionless": {"efforts": "array"},
     "HeldFriction": {"at": "array", "along": "array"},
     "InfluenceSummary": {"coordinate_accelerations": "array", "normal_forces": "array", "eta_positive": "arrays", "eta_negative": "arrays"},
+    "JointSummary": {"gaps": "array"},
     "LimitsReport": {"between_faces_at": "array"},
     "RawReport": {"within_rounding": "WithinRounding", "solutions": "RawSolution", "gap_states": "RawSolution"},
     "RawSolution": {"z": "array", "w": "array", "u": "array", "x": "array", "y": "array", "normal_forces": "array"},

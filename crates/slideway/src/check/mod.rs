@@ -26,7 +26,7 @@ use crate::fault::{FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Assembled, KineticEquations};
-use crate::mechanism::{CoordinateKind, JointKind, Mechanism};
+use crate::mechanism::{CoordinateKind, JointKind, Mechanism, Slider};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{LoadSharing, finite};
@@ -177,6 +177,9 @@ pub struct JointSummary {
     /// Radii of the friction circle of a hinge with friction (m): while it turns, and at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_radii: Option<[f64; 2]>,
+    /// The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both are.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gaps: Vec<f64>,
 }
 
 /// The kind of a joint.
@@ -201,6 +204,12 @@ pub enum JointForm {
     /// A block on a face, which both of its corners may leave.
     #[serde(rename = "block on face")]
     BlockOnFace,
+    /// A disc on a face, which it may leave.
+    #[serde(rename = "disc on face")]
+    DiscOnFace,
+    /// A disc on a disc or in a hole, which it may leave.
+    #[serde(rename = "disc on disc")]
+    DiscOnDisc,
 }
 
 impl fmt::Display for JointForm {
@@ -212,6 +221,8 @@ impl fmt::Display for JointForm {
             Self::PinInSlot => "pin in slot",
             Self::CornerOnFace => "corner on face",
             Self::BlockOnFace => "block on face",
+            Self::DiscOnFace => "disc on face",
+            Self::DiscOnDisc => "disc on disc",
         })
     }
 }
@@ -442,6 +453,17 @@ fn bodies(mechanism: &Mechanism, configuration: &Configuration) -> Vec<BodySumma
     mechanism.bodies.iter().zip(&configuration.poses).map(one).collect()
 }
 
+/// The kind of a joint that may lift off.
+fn face_form(slider: &Slider) -> JointForm {
+    match slider.kind {
+        _ if slider.round.is_some() => JointForm::DiscOnDisc,
+        SliderKind::Pin if slider.height > 0.0 => JointForm::DiscOnFace,
+        SliderKind::Pin if slider.length > 0.0 => JointForm::BlockOnFace,
+        SliderKind::Pin => JointForm::CornerOnFace,
+        SliderKind::Block | SliderKind::Guided => JointForm::BlockOnFace,
+    }
+}
+
 fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSummary> {
     let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
         let circle = mechanism.friction_circle(JointId(index));
@@ -450,10 +472,9 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             JointKind::Slider(slider) => {
                 let opens = slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens);
                 let (kind, constraints) = match slider.kind {
-                    SliderKind::Block if opens => (JointForm::BlockOnFace, 2),
+                    _ if opens || !slider.apart.is_empty() => (face_form(slider), slider.contacts.len()),
                     SliderKind::Block => (JointForm::BlockSlider, mechanism.places_of(slider).count()),
                     SliderKind::Guided => (JointForm::GuidedSlider, 2),
-                    SliderKind::Pin if opens => (JointForm::CornerOnFace, 1),
                     SliderKind::Pin => (JointForm::PinInSlot, 1),
                 };
                 (kind, [slider.block, slider.guide], constraints, Some(slider))
@@ -467,6 +488,9 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             direction: slider.map(|slider| configuration.slide(mechanism, slider).tangent.into()),
             positive: slider.map(|slider| directions::of_joint(mechanism, configuration, slider)),
             displacement: slider.map(|slider| configuration.slide(mechanism, slider).displacement),
+            gaps: slider.map_or_else(Vec::new, |slider| {
+                configuration.gaps(mechanism, slider).map(|[gap, _]| gap).collect()
+            }),
             overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
             stops: slider.map(|slider| slider.stops).filter(|stops| *stops != [None; 2]),
             friction_radii: circle.map(|circle| [circle.radius, circle.static_radius]),

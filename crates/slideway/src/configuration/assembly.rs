@@ -10,7 +10,7 @@ use super::mobility::{
 use super::{Configuration, Pose, drawing_poses, unit};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{Frame, JointId};
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{Joint, JointKind, Mechanism, Slider};
 
 /// Residuals (in sizes of the mechanism, or rad) that count as closed.
 const CLOSED: f64 = 1e-12;
@@ -297,6 +297,7 @@ pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuratio
             let kind = FaultKind::OverlapVanished { joint, overlap, displacement, unit };
             faults.push(Fault::new(kind, place.clone()));
         }
+        faults.extend(penetration(mechanism, configuration, (joint, slider)));
         let [lowest, highest] = slider.limits();
         if let Some([least, greatest]) = slider.travel
             && !(lowest - at_end..=highest + at_end).contains(&displacement)
@@ -307,4 +308,26 @@ pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuratio
         }
     }
     faults.or(())
+}
+
+/// What is said to be apart from its face must not be in it, nor on it without leaving it.
+fn penetration(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (joint, slider): (&Joint, &Slider),
+) -> Option<Fault> {
+    let at_face = AT_END * mechanism.size;
+    let [gap, rate] =
+        configuration.gaps(mechanism, slider).min_by(|one, other| one[0].total_cmp(&other[0]))?;
+    if gap > at_face || (gap >= -at_face && rate > 0.0) {
+        return None;
+    }
+    let joint_name = joint.name.to_string();
+    let kind = if gap < -at_face {
+        let depth = mechanism.units.of("m").show(-gap);
+        FaultKind::Penetration { joint: joint_name, depth }
+    } else {
+        FaultKind::TouchesThoughApart { joint: joint_name }
+    };
+    Some(Fault::new(kind, joint.place.clone()))
 }

@@ -11,6 +11,14 @@
 //! a . m     the axis turned by phi, m linear in the positions:    D2 = 2 (n . m') phi' - (a . m) phi'^2
 //!                                                                 |D3| <= 3 |m'| phi'^2 + |m| |phi'|^3
 //! ```
+//!
+//! The distance `d` of two places keeps its length `r` as `|d|^2/(2 r)`. With arms `w_i`, that turn with angles `phi_i`,
+//! `d'' = -w_1 phi_1'^2 + w_2 phi_2'^2`, and
+//!
+//! ```text
+//! |d|^2/(2 r)                                                     D2 = (d' . d' + d . d'') / r
+//!                                                                 |D3| <= (3 |d'| |d''| + |d| |d^(3)|) / r
+//! ```
 
 use crate::ids::{BodyId, Frame};
 use crate::mechanism::rot90;
@@ -43,6 +51,17 @@ struct Swing {
     length: f64,
 }
 
+/// Two places that keep their distance.
+#[derive(Debug, Clone, Copy)]
+struct Distance {
+    row: usize,
+    ends: [End; 2],
+    /// d, from the second place to the first.
+    between: Vector2<f64>,
+    /// r
+    kept: f64,
+}
+
 /// An end of a distance: what it is on, and its arm from the centre of mass of that body.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct End {
@@ -55,9 +74,16 @@ pub(super) struct End {
 pub(super) struct Curvature {
     turns: Vec<Turn>,
     swings: Vec<Swing>,
+    distances: Vec<Distance>,
 }
 
 impl Curvature {
+    /// Adds the distance of two ends, which is kept, as the equation `row`; `between` leads from the second one to the
+    /// first.
+    pub(super) fn around(&mut self, row: usize, ends: [End; 2], (between, kept): (Vector2<f64>, f64)) {
+        self.distances.push(Distance { row, ends, between, kept });
+    }
+
     /// Adds the distance of two ends along a fixed axis as the equation `row`.
     pub(super) fn along_fixed_axis(&mut self, row: usize, ends: [End; 2], axis: Vector2<f64>) {
         for (end, sign) in ends.iter().zip([1.0, -1.0]) {
@@ -113,6 +139,9 @@ impl Curvature {
                 }
             }
         }
+        for distance in &self.distances {
+            distance.add_change(along, &mut change);
+        }
         change
     }
 
@@ -126,6 +155,11 @@ impl Curvature {
             let across = |moved: Vector2<f64>| swing.normal.abs().dot(&moved);
             let [phi, psi] = [one, other].map(|vector| vector[3 * swing.guide + 2]);
             bounds[swing.row] += across(u) * psi + across(v) * phi + swing.value.abs() * phi * psi;
+        }
+        for distance in &self.distances {
+            let [u, v] = [one, other].map(|vector| distance.moved(vector));
+            let turned = distance.turned(|arm| arm.dot(&distance.between).abs(), [one, other]);
+            bounds[distance.row] += (u * v + turned) / distance.kept;
         }
     }
 
@@ -147,12 +181,74 @@ impl Curvature {
             bounds[swing.row] +=
                 factor * (2.0 * u * phi * psi + v * phi * phi + (swing.length + u) * phi * phi * psi);
         }
+        for distance in &self.distances {
+            let [u, v] = [one, other].map(|vector| distance.moved(vector));
+            let second = |a, b| distance.turned(|arm: Vector2<f64>| arm.norm(), [a, b]);
+            let longest = distance.between.norm() + u;
+            let third: f64 =
+                distance.angles().map(|(arm, angle)| arm.norm() * one[angle].powi(2) * other[angle]).sum();
+            let bound = 2.0 * u * second(one, other) + v * second(one, one) + longest * third;
+            bounds[distance.row] += factor * bound / distance.kept;
+        }
     }
 
     /// The greatest length of a term.
     pub(super) fn greatest_length(&self) -> f64 {
         let turns = self.turns.iter().map(|turn| turn.length);
-        turns.chain(self.swings.iter().map(|swing| swing.length)).fold(0.0, f64::max)
+        let distances = self.distances.iter().map(Distance::length);
+        turns.chain(self.swings.iter().map(|swing| swing.length)).chain(distances).fold(0.0, f64::max)
+    }
+}
+
+impl Distance {
+    /// The arms of the ends that turn, with their signs in d, and the places of their angles in a vector of (x, y, angle) of
+    /// every body.
+    fn angles(&self) -> impl Iterator<Item = (Vector2<f64>, usize)> + '_ {
+        let of_end = |(end, sign): (&End, f64)| Some((end.arm * sign, 3 * end.frame.body()?.index() + 2));
+        self.ends.iter().zip([1.0, -1.0]).filter_map(of_end)
+    }
+
+    /// d' along the entries of a vector, each with its place.
+    fn rates(&self) -> impl Iterator<Item = (usize, Vector2<f64>)> + '_ {
+        let of_end = |(end, sign): (&End, f64)| {
+            let first = 3 * end.frame.body()?.index();
+            let by = [Vector2::x(), Vector2::y(), rot90(end.arm)];
+            Some(by.into_iter().enumerate().map(move |(at, rate)| (first + at, rate * sign)))
+        };
+        self.ends.iter().zip([1.0, -1.0]).filter_map(of_end).flatten()
+    }
+
+    /// Adds D2 F[along, .].
+    fn add_change(&self, along: &DVector<f64>, change: &mut DMatrix<f64>) {
+        let moved: Vector2<f64> = self.rates().map(|(at, rate)| rate * along[at]).sum();
+        for (at, rate) in self.rates() {
+            change[(self.row, at)] += moved.dot(&rate) / self.kept;
+        }
+        for (arm, angle) in self.angles() {
+            change[(self.row, angle)] -= self.between.dot(&arm) * along[angle] / self.kept;
+        }
+    }
+
+    /// The greatest |d'| along a vector of greatest entries.
+    fn moved(&self, greatest: &DVector<f64>) -> f64 {
+        let of_end = |end: &End| {
+            let first = 3 * end.frame.body()?.index();
+            let way = Vector2::new(greatest[first], greatest[first + 1]).norm();
+            Some(way + end.arm.norm() * greatest[first + 2])
+        };
+        self.ends.iter().filter_map(of_end).sum()
+    }
+
+    /// The sum of what both arms count times their rotations.
+    fn turned(&self, counts: impl Fn(Vector2<f64>) -> f64, vectors: [&DVector<f64>; 2]) -> f64 {
+        self.angles().map(|(arm, angle)| counts(arm) * vectors[0][angle] * vectors[1][angle]).sum()
+    }
+
+    /// The greatest length of a term, of which the equation has products.
+    fn length(&self) -> f64 {
+        let arms = self.ends.iter().map(|end| end.arm.norm());
+        let greatest = arms.fold(self.between.norm(), f64::max);
+        greatest.max(greatest * self.between.norm() / self.kept)
     }
 }
 

@@ -332,6 +332,8 @@ fn linkage(mechanism: &Mechanism) -> Vec<f64> {
                 let turns = f64::from(u8::from(slider.kind == SliderKind::Pin));
                 numbers.extend([turns, frame(slider.block), frame(slider.guide)]);
                 numbers.extend([slider.at.x, slider.at.y, slider.tangent.x, slider.tangent.y]);
+                numbers.push(slider.contacts.len() as f64);
+                numbers.extend(slider.round.iter().flat_map(|round| round.centre));
             }
         }
     }

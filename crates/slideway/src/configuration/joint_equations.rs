@@ -1,15 +1,15 @@
 //! The joint equations: their residuals at given poses, and their Jacobian.
 //!
 //! A hinge gives two equations (its two points coincide), a block or guided slider two (the middle of the
-//! block stays on the guide's centre line; no relative rotation), a pin in a slot one. Rows of length are
+//! block stays on the guide's centre line; no relative rotation), a pin in a slot or a disc on a disc one. Rows of length are
 //! divided by the size of the mechanism, and displacements are counted in it, so that all numbers are of
 //! order one.
 
 use super::curvature::{Curvature, End};
-use super::{Pose, middle_points, moved, turned};
+use super::{Pose, middle_points, moved, round_ends, turned};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, length, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, Vector2};
 
@@ -101,6 +101,12 @@ impl<'m, T: Real> Rows<'m, T> {
     }
 
     fn slider(&mut self, joint: Option<JointId>, slider: &Slider<T>) {
+        if slider.contacts.is_empty() {
+            return;
+        }
+        if let Some(round) = &slider.round {
+            return self.round(joint, round_ends(slider, round));
+        }
         let normal = rot90(self.direction(slider));
         let [block, guide] = middle_points(slider);
         self.distance(joint, [&block, &guide], normal, Some(slider.guide));
@@ -111,6 +117,46 @@ impl<'m, T: Real> Rows<'m, T> {
             add_angle(&mut row, slider.guide, -T::one());
             self.list.push(row);
         }
+    }
+
+    /// Two centres keep their distance: `(|d|^2 - r^2)/(2 r)` with `d` between them, and `r` in the drawing.
+    fn round(&mut self, joint: Option<JointId>, ends: [Attachment<T>; 2]) {
+        if self.leaves_out(joint) {
+            return;
+        }
+        let size = self.size();
+        let places = ends.each_ref().map(|end| moved(self.mechanism, self.poses, end));
+        let between = places[0] - places[1];
+        let drawn = length(ends[0].position - ends[1].position);
+        let longer = between.x.square() + between.y.square() - drawn.square();
+        let residual = longer / (drawn * size * T::exactly(2.0));
+        let mut row = Row { joint, is_angle: false, residual, derivatives: Vec::new() };
+        let axis = between / drawn;
+        for (end, place, sign) in [(&ends[0], places[0], T::one()), (&ends[1], places[1], -T::one())] {
+            self.follow(&mut row, (end.frame, place), axis * sign);
+        }
+        let ends = [(&ends[0], places[0]), (&ends[1], places[1])];
+        let (index, between) = (self.list.len(), between.map(|part| part.middle() / self.mechanism.size));
+        let arms = ends.map(|(end, place)| self.end(end.frame, place));
+        if let Some(curvature) = &mut self.curvature {
+            curvature.around(index, arms, (between, drawn.middle() / self.mechanism.size));
+        }
+        self.list.push(row);
+    }
+
+    /// Adds the derivatives of a place of a frame along an axis.
+    fn follow(&self, row: &mut Row<T>, (frame, place): (Frame, Vector2<T>), axis: Vector2<T>) {
+        let Some(body) = frame.body() else { return };
+        let arm = place - self.poses[body.index()].position;
+        row.derivatives.push((3 * body.index(), axis.x));
+        row.derivatives.push((3 * body.index() + 1, axis.y));
+        row.derivatives.push((3 * body.index() + 2, axis.dot(&rot90(arm)) / self.size()));
+    }
+
+    /// A place of a frame, with its arm in sizes of the mechanism.
+    fn end(&self, frame: Frame, place: Vector2<T>) -> End {
+        let origin = frame.body().map_or(place, |body| self.poses[body.index()].position);
+        End { frame, arm: (place - origin).map(|part| part.middle() / self.mechanism.size) }
     }
 
     fn coordinates(&mut self, values: &[T]) {
@@ -164,12 +210,7 @@ impl<'m, T: Real> Rows<'m, T> {
         let residual = axis.dot(&between) / size;
         let mut row = Row { joint, is_angle: false, residual, derivatives: Vec::new() };
         for (point, place, sign) in [(first, places[0], T::one()), (second, places[1], -T::one())] {
-            if let Some(body) = point.frame.body() {
-                let arm = place - self.poses[body.index()].position;
-                row.derivatives.push((3 * body.index(), sign * axis.x));
-                row.derivatives.push((3 * body.index() + 1, sign * axis.y));
-                row.derivatives.push((3 * body.index() + 2, sign * axis.dot(&rot90(arm)) / size));
-            }
+            self.follow(&mut row, (point.frame, place), axis * sign);
         }
         // d(axis)/d(angle) = rot90(axis)
         if let Some(body) = axis_frame.and_then(Frame::body) {

@@ -36,8 +36,8 @@ pub(crate) use standing::{NO_ACCELERATION, staying};
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, rot90};
-use crate::model::{CarriedBy, SliderKind};
+use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, length, rot90};
+use crate::model::{CarriedBy, Round, SliderKind};
 use crate::progress::{Callback, Progress};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -110,7 +110,7 @@ pub struct Slide<T = f64> {
     pub tangent: Vector2<T>,
     /// Normal n = rot90(u).
     pub normal: Vector2<T>,
-    /// Displacement of the block against the guide along u, zero in the drawing (m).
+    /// Displacement of the block against the guide along u, zero in the drawing and on a round face (m).
     pub displacement: T,
 }
 
@@ -123,8 +123,10 @@ pub struct ContactGeometry<T = f64> {
     pub tangent: Vector2<T>,
     /// Normal n = rot90(u).
     pub normal: Vector2<T>,
-    /// Velocity of the block's material point against the guide's at P, along u (m/s).
+    /// Velocity of the block's material point against the guide's where they touch, along u (m/s).
     pub sliding_velocity: T,
+    /// That of both at P, which is the centre of a disc.
+    pub(crate) velocity_at_point: T,
 }
 
 impl Configuration {
@@ -271,16 +273,17 @@ impl<T: Real> Configuration<T> {
 
     /// A sliding joint in this configuration.
     pub fn slide(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Slide<T> {
-        let tangent = self.direction(slider.guide, slider.tangent);
+        let tangent = self.tangent(mechanism, slider);
         let [block, guide] = middle_points(slider).map(|point| self.position(mechanism, &point));
-        Slide { tangent, normal: rot90(tangent), displacement: tangent.dot(&(block - guide)) }
+        let displacement = if slider.round.is_some() { T::zero() } else { tangent.dot(&(block - guide)) };
+        Slide { tangent, normal: rot90(tangent), displacement }
     }
 
     /// A contact in this configuration.
     pub fn contact(&self, mechanism: &Mechanism<T>, id: ContactId) -> ContactGeometry<T> {
         let contact = &mechanism.contacts[id.index()];
         let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
-        let tangent = self.direction(slider.guide, slider.tangent);
+        let tangent = self.tangent(mechanism, slider);
         let frame = match contact.carried_by {
             CarriedBy::Block => slider.block,
             CarriedBy::Guide => slider.guide,
@@ -288,7 +291,47 @@ impl<T: Real> Configuration<T> {
         let drawn = slider.at + slider.tangent * contact.offset;
         let point = self.position(mechanism, &Attachment { frame, position: drawn });
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
-        ContactGeometry { point, tangent, normal: rot90(tangent), sliding_velocity: tangent.dot(&relative) }
+        let velocity_at_point = tangent.dot(&relative);
+        let mut sliding_velocity = velocity_at_point;
+        if slider.kind == SliderKind::Pin && !slider.height.is_zero() {
+            let spin = self.angular_velocity(slider.block) - self.angular_velocity(slider.guide);
+            sliding_velocity += spin * (slider.height / T::exactly(2.0));
+        }
+        let normal = rot90(tangent);
+        ContactGeometry { point, tangent, normal, sliding_velocity, velocity_at_point }
+    }
+
+    /// The tangent u of a guide where its block is.
+    pub(crate) fn tangent(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Vector2<T> {
+        let Some(round) = &slider.round else { return self.direction(slider.guide, slider.tangent) };
+        let [block, centre] = round_ends(slider, round).map(|end| self.position(mechanism, &end));
+        let outwards = (block - centre) / length(block - centre);
+        if round.inside { rot90(outwards) } else { -rot90(outwards) }
+    }
+
+    /// The gap of each corner or disc of a sliding joint that is apart from its face (m), and its rate (m/s).
+    pub fn gaps<'a>(
+        &'a self,
+        mechanism: &'a Mechanism<T>,
+        slider: &'a Slider<T>,
+    ) -> impl Iterator<Item = [T; 2]> + 'a {
+        slider.apart.iter().map(|&(position, drawn)| {
+            let normal = rot90(self.tangent(mechanism, slider));
+            let place = self.position(mechanism, &Attachment { frame: slider.block, position });
+            let opposite = self.position(mechanism, &Attachment { frame: slider.guide, position });
+            let moved = match &slider.round {
+                None => normal.dot(&(place - opposite)),
+                Some(round) => {
+                    let [block, centre] = round_ends(slider, round);
+                    let distance = |from: Vector2<T>, to: Vector2<T>| length(to - from);
+                    let now = distance(self.position(mechanism, &centre), place);
+                    let change = now - distance(centre.position, block.position);
+                    if round.inside { -change } else { change }
+                }
+            };
+            let relative = self.velocity_at(slider.block, place) - self.velocity_at(slider.guide, place);
+            [drawn + moved, normal.dot(&relative)]
+        })
     }
 
     /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu
@@ -365,6 +408,12 @@ fn moved<T: Real>(mechanism: &Mechanism<T>, poses: &[Pose<T>], point: &Attachmen
 /// The middle of the block as a point of the block, and of the guide.
 fn middle_points<T: Real>(slider: &Slider<T>) -> [Attachment<T>; 2] {
     [slider.block, slider.guide].map(|frame| Attachment { frame, position: slider.at })
+}
+
+/// The centre of a disc as a point of the block, and that of its round face as one of the guide.
+fn round_ends<T: Real>(slider: &Slider<T>, round: &Round<T>) -> [Attachment<T>; 2] {
+    let centre = Attachment { frame: slider.guide, position: round.centre.into() };
+    [Attachment { frame: slider.block, position: slider.at }, centre]
 }
 
 /// The unit of a coordinate.

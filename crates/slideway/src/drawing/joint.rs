@@ -136,6 +136,23 @@ impl CornerOnFace {
     }
 }
 
+/// A disc on a face, which it may leave: a joint with one contact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct DiscOnFace(SingleSlider<false>);
+
+impl DiscOnFace {
+    /// Its contact.
+    pub fn contact(self) -> ContactId {
+        self.0.contact()
+    }
+}
+
+impl From<DiscOnFace> for JointId {
+    fn from(disc: DiscOnFace) -> Self {
+        disc.0.into()
+    }
+}
+
 impl From<BlockOnFace> for JointId {
     fn from(block: BlockOnFace) -> Self {
         block.0.into()
@@ -167,6 +184,8 @@ pub trait SliderHandle: Copy + sealed::Sealed {
     #[doc(hidden)]
     const CONTACTS: usize;
     #[doc(hidden)]
+    const PLACE: &'static str = "at";
+    #[doc(hidden)]
     fn of(joint: JointId, first: ContactId) -> Self;
 }
 
@@ -176,6 +195,7 @@ mod sealed {
     impl<const GUIDED: bool> Sealed for super::SingleSlider<GUIDED> {}
     impl Sealed for super::BlockOnFace {}
     impl Sealed for super::CornerOnFace {}
+    impl Sealed for super::DiscOnFace {}
 }
 
 impl SliderHandle for BlockSlider {
@@ -199,6 +219,15 @@ impl SliderHandle for BlockOnFace {
     const CONTACTS: usize = 2;
     fn of(joint: JointId, front: ContactId) -> Self {
         Self(BlockSlider::of(joint, front))
+    }
+}
+
+impl SliderHandle for DiscOnFace {
+    const TYPE: &'static str = "disc_on_face";
+    const CONTACTS: usize = 1;
+    const PLACE: &'static str = "centre";
+    fn of(joint: JointId, contact: ContactId) -> Self {
+        Self(SingleSlider::of(joint, contact))
     }
 }
 
@@ -242,9 +271,9 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
         self
     }
 
-    /// Middle of the block, or the pin, in the drawing (m).
+    /// Middle of the block, the pin, or the centre of the disc, in the drawing (m).
     pub fn at(self, place: [impl Into<Quantity>; 2]) -> Self {
-        self.set("at", quantity::pair(place))
+        self.set(S::PLACE, quantity::pair(place))
     }
 
     /// Direction of positive sliding: the angle from the x axis (rad). Default: 0.
@@ -366,6 +395,13 @@ macro_rules! lengths {
 }
 
 lengths!(BlockSlider, SingleSlider<true>);
+
+impl SliderBuilder<'_, DiscOnFace> {
+    /// Radius of the disc (m).
+    pub fn radius(self, radius: impl Into<Quantity>) -> Self {
+        self.set("radius", radius.into())
+    }
+}
 
 impl SliderBuilder<'_, BlockOnFace> {
     /// Distance of both corners (m).

@@ -35,8 +35,8 @@ mod load;
 mod quantity;
 
 pub use joint::{
-    BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, HingeBuilder, SingleSlider, SliderBuilder,
-    SliderHandle,
+    BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, DiscOnFace, HingeBuilder, SingleSlider,
+    SliderBuilder, SliderHandle,
 };
 pub use load::{DriveBuilder, ForceBuilder, LoadBuilder};
 pub use quantity::Quantity;
@@ -157,6 +157,16 @@ impl Drawing {
         guide: impl Into<Frame>,
     ) -> SliderBuilder<'_, CornerOnFace> {
         SliderBuilder::new(self, name, [block.into(), guide.into()])
+    }
+
+    /// A disc of the first body on a straight face of the second, which it may leave.
+    pub fn disc_on_face(
+        &mut self,
+        name: &str,
+        disc: impl Into<Frame>,
+        guide: impl Into<Frame>,
+    ) -> SliderBuilder<'_, DiscOnFace> {
+        SliderBuilder::new(self, name, [disc.into(), guide.into()])
     }
 
     /// A block on a straight face of the second body, which both of its corners may leave.

@@ -4,7 +4,8 @@ use super::{Layout, Reaction};
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, length, rot90};
+use crate::model::Round;
 use nalgebra::{DVector, Vector2};
 
 /// One row: entries by the index of the acceleration, and the right-hand side.
@@ -128,12 +129,32 @@ impl<T: Real> ConstraintRow<T> {
         joint: JointId,
         contact: &ContactGeometry<T>,
     ) {
-        if let Some(slider) = mechanism.slider(joint) {
-            self.add(configuration, slider.block, contact.point, contact.normal);
-            self.add(configuration, slider.guide, contact.point, -contact.normal);
-            self.right_hand_side +=
-                T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.sliding_velocity;
+        let Some(slider) = mechanism.slider(joint) else { return };
+        self.add(configuration, slider.block, contact.point, contact.normal);
+        if let Some(round) = &slider.round {
+            return self.round(mechanism, configuration, (slider, round), contact);
         }
+        self.add(configuration, slider.guide, contact.point, -contact.normal);
+        self.right_hand_side +=
+            T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.velocity_at_point;
+    }
+
+    /// The centre of a disc stays at its distance from the centre of its round face: with v along u of one centre
+    /// against the other, n . (a_block - a_guide) = -v^2/distance, or the opposite in a hole.
+    fn round(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        (slider, round): (&Slider<T>, &Round<T>),
+        contact: &ContactGeometry<T>,
+    ) {
+        let centre = Attachment { frame: slider.guide, position: round.centre.into() };
+        let centre = configuration.position(mechanism, &centre);
+        self.add(configuration, slider.guide, centre, -contact.normal);
+        let velocity = configuration.velocity_at(slider.block, contact.point)
+            - configuration.velocity_at(slider.guide, centre);
+        let turning = contact.tangent.dot(&velocity).square() / length(contact.point - centre);
+        self.right_hand_side += if round.inside { turning } else { -turning };
     }
 
     fn no_relative_rotation(&mut self, mechanism: &Mechanism<T>, joint: JointId) {

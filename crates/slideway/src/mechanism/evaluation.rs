@@ -8,7 +8,7 @@ use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
 use crate::model::{
     self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
-    Moment, PreloadLine, SliderKind, Stop,
+    Moment, PreloadLine, Round, SliderKind, Stop, Touches,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -93,6 +93,10 @@ impl<T: Real> Evaluation<'_, T> {
                 let between = self.vector(to.position) - self.vector(from.position);
                 between / length(between)
             }
+            Along::Across([from, to]) => {
+                let normal = self.vector(*to) - self.vector(*from);
+                -rot90(normal / length(normal))
+            }
         }
     }
 
@@ -169,8 +173,12 @@ impl<T: Real> Evaluation<'_, T> {
 
     fn slider(&self, slider: &model::Slider, joint: JointId, contacts: &mut Vec<Contact<T>>) -> Slider<T> {
         let length = slider.length.map_or(T::zero(), |length| self.value(length));
-        let height = slider.height.map_or(T::zero(), |height| self.value(height));
-        let offsets: &[f64] = if slider.kind == SliderKind::Block { &[0.5, -0.5] } else { &[0.0] };
+        // The friction of a disc acts at its rim.
+        let radius = slider.radius.map(|radius| self.value(radius) * T::exactly(2.0));
+        let height = slider.height.map(|height| self.value(height)).or(radius).unwrap_or(T::zero());
+        let corner = corner(slider.touches, length);
+        let offsets: &[f64] =
+            if slider.kind == SliderKind::Block && corner.is_zero() { &[0.5, -0.5] } else { &[0.0] };
         let first = contacts.len();
         for (index, contact) in slider.contacts.iter().enumerate() {
             let face = contact
@@ -206,16 +214,23 @@ impl<T: Real> Evaluation<'_, T> {
                 opens: contact.opens,
             });
         }
-        let (at, tangent) = (self.vector(slider.at), self.direction(&slider.along));
-        let face = self.face(slider, (at, tangent), length);
+        let tangent = self.direction(&slider.along);
+        let at = self.vector(slider.at) + tangent * corner;
+        let face = self.face(slider, (at, tangent), if corner.is_zero() { length } else { T::zero() });
         Slider {
-            kind: slider.kind,
+            kind: if corner.is_zero() { slider.kind } else { SliderKind::Pin },
             block: slider.block,
             guide: slider.guide,
             at,
             tangent,
             length,
             height: if slider.around { -height } else { height },
+            round: slider.round.map(|round| Round {
+                centre: round.centre.map(|part| self.value(part)),
+                radius: self.value(round.radius),
+                inside: round.inside,
+            }),
+            apart: self.apart(slider, (at, tangent), length),
             around: slider.around,
             travel: face.or(slider.travel.map(|travel| travel.map(|limit| self.value(limit)))),
             stops: slider.stops.map(|stop| stop.map(|stop| stop.map(|id| self.value(id)))),
@@ -236,13 +251,44 @@ impl<T: Real> Evaluation<'_, T> {
         slider.has_ends.then_some([from + half, to - half])
     }
 
-    /// How far each face with ends is from its block (m).
+    /// The corners of a block, or the centre of a disc, that are apart from their face, each with the gap in the drawing.
+    fn apart(
+        &self,
+        slider: &model::Slider,
+        (at, tangent): (Vector2<T>, Vector2<T>),
+        length: T,
+    ) -> Vec<(Vector2<T>, T)> {
+        let gap = self.gap(slider).unwrap_or(T::zero());
+        let along = |way: T| (at + tangent * way, gap);
+        let half = length / T::exactly(2.0);
+        match slider.touches {
+            Touches::All => Vec::new(),
+            Touches::Front => vec![along(-length)],
+            Touches::Rear => vec![along(length)],
+            Touches::Nothing if length.is_zero() => vec![along(T::zero())],
+            Touches::Nothing => vec![along(half), along(-half)],
+        }
+    }
+
+    /// How far a block is from the face that the drawing shows (m); none where the face follows from the block.
+    fn gap(&self, slider: &model::Slider) -> Option<T> {
+        let radius = slider.radius.map_or(T::zero(), |radius| self.value(radius));
+        if let Some(round) = slider.round {
+            let distance = length(self.vector(slider.at) - self.vector(round.centre));
+            let face = self.value(round.radius);
+            return Some(if round.inside { face - radius - distance } else { distance - radius - face });
+        }
+        let Along::Points(ends) = &slider.along else { return None };
+        let way = self.vector(slider.at) - self.vector(ends[0].position);
+        slider.has_ends.then(|| rot90(self.direction(&slider.along)).dot(&way) - radius)
+    }
+
+    /// How far each closed face that the drawing shows is from its block (m).
     pub(super) fn off_faces(&self) -> impl Iterator<Item = (JointId, T)> + '_ {
         self.model.joints.iter().enumerate().filter_map(|(index, joint)| {
             let model::JointKind::Slider(slider) = &joint.kind else { return None };
-            let Along::Points(ends) = &slider.along else { return None };
-            let way = self.vector(slider.at) - self.vector(ends[0].position);
-            slider.has_ends.then(|| (JointId(index), rot90(self.direction(&slider.along)).dot(&way)))
+            let gap = self.gap(slider).filter(|_| slider.touches != Touches::Nothing)?;
+            Some((JointId(index), gap))
         })
     }
 
@@ -396,6 +442,7 @@ pub(super) fn size(mechanism: &Mechanism) -> f64 {
             JointKind::Slider(slider) => {
                 let half = slider.tangent * (slider.length / 2.0);
                 places.extend([slider.at - half, slider.at + half]);
+                places.extend(slider.round.map(|round| Vector2::from(round.centre)));
             }
         }
     }
@@ -405,4 +452,14 @@ pub(super) fn size(mechanism: &Mechanism) -> f64 {
     };
     let size = extent(0).hypot(extent(1));
     if size > 0.0 { size } else { 1.0 }
+}
+
+/// Where the corner of a block that touches alone is from its middle.
+fn corner<T: Real>(touches: Touches, length: T) -> T {
+    let half = length / T::exactly(2.0);
+    match touches {
+        Touches::All | Touches::Nothing => T::zero(),
+        Touches::Front => half,
+        Touches::Rear => -half,
+    }
 }

@@ -92,6 +92,7 @@ impl Mechanism {
         for joint in &self.joints {
             match &joint.kind {
                 JointKind::Hinge(ends) => rows.extend(self.hinge_rows(ends, 1)),
+                JointKind::Slider(slider) if slider.contacts.is_empty() => {}
                 JointKind::Slider(slider) => {
                     rows.push(self.normal_row(slider, 0.0, 2));
                     if slider.kind != SliderKind::Pin {

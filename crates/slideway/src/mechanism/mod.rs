@@ -17,7 +17,7 @@ use crate::ids::{BodyId, ContactId, CoordinateId, FormulaId, Frame, JointId};
 use crate::interval::{Interval, Real};
 use crate::model::{
     CarriedBy, CrossingDirection, Face, Formula, HingeFriction, Model, OutlineCorner, PinLaw, PreloadLine,
-    SliderKind, Stop,
+    Round, SliderKind, Stop,
 };
 use crate::units::Units;
 use evaluation::Evaluation;
@@ -148,6 +148,10 @@ pub struct Slider<T = f64> {
     pub length: T,
     /// Distance of the rubbing faces (m), negative where the block surrounds the guide.
     pub height: T,
+    /// The round face of the guide in the drawing, if it is not straight.
+    pub round: Option<Round<T>>,
+    /// The corners, or the centre of a disc, that are apart from their face in the state, each with its gap in the drawing (m).
+    pub apart: Vec<(Vector2<T>, T)>,
     /// Whether the block surrounds the guide, so that the opposite faces press.
     pub around: bool,
     /// Limits of the displacement (m).

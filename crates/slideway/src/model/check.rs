@@ -2,8 +2,7 @@
 //! between values, and how its parts are connected.
 
 use super::{
-    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, NamedPoint, Slider, SliderKind,
-    Stop,
+    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, Slider, SliderKind, Stop, Touches,
 };
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
@@ -176,6 +175,7 @@ impl Model {
     /// Whether the joints have more equations than the coordinates leave room for: redundant guides.
     pub(crate) fn is_redundant(&self) -> bool {
         let equations = |joint: &Joint| match &joint.kind {
+            JointKind::Slider(slider) if slider.touches != Touches::All => slider.contacts.len(),
             JointKind::Slider(slider) if slider.kind == SliderKind::Pin => 1,
             // Further supports of a block count, too.
             JointKind::Slider(slider) => slider.contacts.len().max(2),
@@ -513,14 +513,21 @@ fn check_direction(
     value: &dyn Fn(FormulaId) -> Option<f64>,
     faults: &mut Faults,
 ) {
-    let Along::Points(points) = along else { return };
-    let at = |point: &NamedPoint| Some([value(point.position[0])?, value(point.position[1])?]);
-    let [from, to] = points.as_ref();
+    let at = |place: [FormulaId; 2]| Some([value(place[0])?, value(place[1])?]);
+    let (places, names) = match along {
+        Along::Angle(_) => return,
+        Along::Points(points) => {
+            let [from, to] = points.as_ref();
+            ([from.position, to.position], [&*from.name, &*to.name])
+        }
+        Along::Across(places) => (*places, ["one centre", "the other"]),
+    };
+    let [from, to] = places;
     let rounding = |a: [f64; 2], b: [f64; 2]| 1e-12 * a[0].hypot(a[1]).max(b[0].hypot(b[1])).max(SHORTEST);
     if let (Some(a), Some(b)) = (at(from), at(to))
         && (b[0] - a[0]).hypot(b[1] - a[1]) <= rounding(a, b)
     {
-        let kind = FaultKind::CoincidentPoints { first: from.name.to_string(), second: to.name.to_string() };
+        let kind = FaultKind::CoincidentPoints { first: names[0].to_owned(), second: names[1].to_owned() };
         faults.push(Fault::new(kind, place.clone()));
     }
 }
@@ -551,6 +558,10 @@ fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool
                 Along::Angle(angle) => values[angle.index()],
                 Along::Points(points) => {
                     let [from, to] = [place(points[0].position)?, place(points[1].position)?];
+                    Some((to[1] - from[1]).atan2(to[0] - from[0]))
+                }
+                Along::Across(ends) => {
+                    let [from, to] = [place(ends[0])?, place(ends[1])?];
                     Some((to[1] - from[1]).atan2(to[0] - from[0]))
                 }
             };

@@ -135,7 +135,14 @@ pub(super) struct SliderTable {
     /// The body that is the guide or has the slot. Default: "ground".
     pub(super) guide: Option<Name>,
     /// Middle of the block on the guide's centre line, or the pin, in the drawing: a point's name or [x, y].
+    #[serde(alias = "centre")]
     pub(super) at: Place,
+    /// The radius of a disc, which `schema.rs` has.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) radius: Option<Quantity>,
+    /// What touches, which `schema.rs` has.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) closed: Option<Closed>,
     /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Option<Direction>,
     /// The ends of a face, which `schema.rs` has.
@@ -163,6 +170,42 @@ pub(super) struct SliderTable {
     /// by play, stiffness and misalignment.
     #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::schema::SupportTable>>"))]
     pub(super) supports: Option<BTreeMap<String, ContactTable>>,
+}
+
+/// What of a joint that may lift off touches in the state to be solved.
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(untagged)]
+pub(super) enum Closed {
+    /// All of it, or nothing.
+    All(bool),
+    /// The corner of a block with this name.
+    One([End; 1]),
+}
+
+/// An end of a block.
+#[derive(Deserialize, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub(super) enum End {
+    /// The end in the direction of sliding.
+    Front,
+    /// The other end.
+    Rear,
+}
+
+/// A disc on a disc, or in a hole, which it may leave.
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
+pub(super) struct DiscOnDiscTable {
+    /// The centres of both discs, each as "body.point": the block's, then the guide's.
+    pub(super) centres: [Name; 2],
+    /// Their radii, in the same order.
+    pub(super) radii: Components,
+    /// `true`: the guide has a hole, and the disc is inside it. Default: `false`.
+    pub(super) inside: Option<bool>,
+    /// `false`: they are apart in the state to be solved. Default: `true`.
+    pub(super) closed: Option<bool>,
 }
 
 /// A contact of a sliding joint, or what all of its contacts have in common.

@@ -254,6 +254,12 @@ pub struct Slider {
     pub length: Option<FormulaId>,
     /// Distance of the rubbing faces.
     pub height: Option<FormulaId>,
+    /// Radius of a disc, whose centre is `at`.
+    pub radius: Option<FormulaId>,
+    /// The round face of the guide, if it is not straight.
+    pub round: Option<Round<FormulaId>>,
+    /// Which of the contacts that may lift off touch in the state to be solved.
+    pub touches: Touches,
     /// Whether the block surrounds the guide.
     pub around: bool,
     /// Limits of the displacement.
@@ -274,6 +280,32 @@ pub enum Along {
     Angle(FormulaId),
     /// From one point to another.
     Points(Box<[NamedPoint; 2]>),
+    /// At right angles to the line from one place to another, which is on its left.
+    Across([[FormulaId; 2]; 2]),
+}
+
+/// A round face.
+#[derive(Debug, Clone, Copy)]
+pub struct Round<N> {
+    /// Its centre in the drawing.
+    pub centre: [N; 2],
+    /// Its radius.
+    pub radius: N,
+    /// Whether it is a hole around the block.
+    pub inside: bool,
+}
+
+/// Which contacts of a joint touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Touches {
+    /// All of them.
+    All,
+    /// That at the front end of a block alone.
+    Front,
+    /// That at the rear end of a block alone.
+    Rear,
+    /// None.
+    Nothing,
 }
 
 /// A contact with friction.

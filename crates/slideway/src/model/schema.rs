@@ -4,8 +4,8 @@
 //! `cargo test -p slideway --lib schema | sed -n '/^{/,/^}/p' > target/schema.json`, to be moved here.
 
 use super::file::{
-    BodyTable, ContactTable, CoordinateTable, DriveTable, EventTable, HingeTable, SliderTable, StopTable,
-    TableTable,
+    BodyTable, Closed, ContactTable, CoordinateTable, DiscOnDiscTable, DriveTable, EventTable, HingeTable,
+    SliderTable, StopTable, TableTable,
 };
 use super::quantity::{
     Components, Direction, Gravity, Name, OutlinePlace, PerSide, Place, Quantity, Sides, Through,
@@ -70,19 +70,29 @@ enum JointTable {
     CornerOnFace(Box<CornerOnFaceTable>),
     /// A block on a straight face, which both of its corners may leave.
     BlockOnFace(Box<BlockOnFaceTable>),
+    /// A disc on a straight face, which it may leave.
+    DiscOnFace(Box<DiscOnFaceTable>),
+    /// A disc on a disc, or in a hole, which it may leave.
+    DiscOnDisc(Box<DiscContactTable>),
 }
 
-/// A corner or a block on a face, which it may leave.
+/// A corner, a block or a disc on a face, which it may leave.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "only its schema is used: it is read as that of a slider")]
 struct OnFaceTable {
-    /// The body that has the corner or the base, or "ground".
+    /// The body that has the corner, the base or the disc, or "ground".
     block: Name,
     /// The body that has the face. Default: "ground".
     guide: Option<Name>,
     /// The corner, or the middle of the base, in the drawing: a point's name or [x, y].
-    at: Place,
+    at: Option<Place>,
+    /// The centre of a disc in the drawing: a point's name or [x, y].
+    centre: Option<Place>,
+    /// The radius of a disc.
+    radius: Option<Quantity>,
+    /// What touches in the state to be solved: `true` (default), `false`, or of a block `["front"]` or `["rear"]`.
+    closed: Option<Closed>,
     /// Direction of positive sliding along a face without ends: an angle from the x axis, or two points
     /// `["from", "to"]`. The block is on its left.
     along: Option<Direction>,
@@ -132,10 +142,14 @@ some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", 
 some_keys!(PinInSlotTable: ContactTable, SliderTable;
     without ["carried_by", "front", "rear", "supports", "length", "height", "fit", "preload_line"];
     required ["along"]; "A pin in a slot.");
-some_keys!(CornerOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", "length"]; required [];
-    "A corner on a straight face, which it may leave.");
-some_keys!(BlockOnFaceTable: CornerTable, OnFaceTable; without []; required ["length"];
+some_keys!(CornerOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", "length", "centre", "radius"];
+    required ["at"]; "A corner on a straight face, which it may leave.");
+some_keys!(BlockOnFaceTable: CornerTable, OnFaceTable; without ["centre", "radius"]; required ["at", "length"];
     "A block on a straight face, which both of its corners may leave.");
+some_keys!(DiscOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", "length", "at"];
+    required ["centre", "radius"]; "A disc on a straight face, which it may leave.");
+some_keys!(DiscContactTable: CornerTable, DiscOnDiscTable; without []; required [];
+    "A disc on a disc, or in a hole, which it may leave.");
 some_keys!(EndTable: ContactTable; without ["at"]; required []; "What differs at one end of a block.");
 some_keys!(SupportTable: ContactTable; without []; required ["at"]; "A further contact of a block.");
 some_keys!(StopAtEndTable: StopTable; without ["least", "greatest"]; required [];

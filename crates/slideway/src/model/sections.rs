@@ -3,8 +3,8 @@
 
 use super::SliderKind;
 use super::file::{
-    BodyTable, ContactTable, CoordinateTable, DamperTable, DriveTable, Entry, EventTable, ForceTable,
-    HingeTable, SliderTable, SpringTable, TableTable, TorqueTable, TorsionalDamperTable,
+    BodyTable, ContactTable, CoordinateTable, DamperTable, DiscOnDiscTable, DriveTable, Entry, EventTable,
+    ForceTable, HingeTable, SliderTable, SpringTable, TableTable, TorqueTable, TorsionalDamperTable,
     TorsionalSpringTable,
 };
 use super::quantity::{Components, Gravity, Name, Quantity};
@@ -38,6 +38,7 @@ pub(super) struct Sections {
 pub(super) enum JointContents {
     Hinge(Box<HingeTable>),
     Slider(Box<SliderContents>),
+    DiscOnDisc(Box<(DiscOnDiscTable, ContactTable)>),
 }
 
 /// A sliding joint: one table of the file, read as that of the joint and as that of its contacts.
@@ -227,7 +228,11 @@ fn joint(value: Spanned<DeValue<'_>>) -> Result<JointContents, toml::de::Error> 
         "block_slider" => (SliderKind::Block, false),
         "block_on_face" => (SliderKind::Block, true),
         "guided_slider" => (SliderKind::Guided, false),
-        "corner_on_face" => (SliderKind::Pin, true),
+        "corner_on_face" | "disc_on_face" => (SliderKind::Pin, true),
+        "disc_on_disc" => {
+            let contents = (deserialize(value.clone())?, deserialize(value)?);
+            return Ok(JointContents::DiscOnDisc(Box::new(contents)));
+        }
         _ => (SliderKind::Pin, false),
     };
     let joint = deserialize(value.clone())?;

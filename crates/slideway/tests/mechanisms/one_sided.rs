@@ -23,7 +23,7 @@ use std::ops::ControlFlow;
 
 const REFERENCE: &str = include_str!("../../../../reference/one-sided.toml");
 const ROD: &str = include_str!("../../../../docs/src/examples/rod-on-floor.toml");
-const GRAVITY: f64 = 9.81;
+pub(crate) const GRAVITY: f64 = 9.81;
 
 #[derive(Deserialize)]
 struct Reference {
@@ -73,7 +73,7 @@ fn painleve(list: &[(&str, &str)]) -> SolveReport {
     report_with(&rod(list), &Settings::default())
 }
 
-fn gap(solution: &Solution, contact_name: &str) -> f64 {
+pub(crate) fn gap(solution: &Solution, contact_name: &str) -> f64 {
     contact(solution, contact_name).gap_acceleration.unwrap_or(0.0)
 }
 
@@ -107,7 +107,9 @@ fn assert_states(report: &SolveReport, system: &System, states: &[State], tolera
             report.solutions.iter().filter(|solution| is(solution, system, state, tolerance)).collect();
         assert_eq!(found.len(), 1, "{name}: {state:?} in {:#?}\n{}", report.solutions, system.text());
         let solution = found[0];
-        assert!(solution.residual < 1e-12, "{name}: {}", solution.residual);
+        // Rounding, amplified where a drive is nearly powerless.
+        let rounding = 1e-12_f64.max(f64::EPSILON * report.condition);
+        assert!(solution.residual < rounding, "{name}: {}\n{}", solution.residual, system.text());
         for (k, one) in system.contacts.iter().enumerate() {
             let found = contact(solution, &one.name);
             assert_eq!(found.gap_acceleration.is_some(), state.gap[k] != 0.0, "{name}: {}", one.name);
@@ -128,16 +130,32 @@ fn assert_states(report: &SolveReport, system: &System, states: &[State], tolera
 #[test]
 fn the_reference_has_these_states() {
     let Reference { case } = toml::from_str(REFERENCE).unwrap();
-    assert_eq!(case.len(), 8);
-    for Case { name, system, states } in &case {
+    assert_eq!(case.len(), 12);
+    for Case { name, system, states } in case {
+        let system = system.with_frames();
         let report = report_on(&system.text());
-        let states: Vec<State> = states.iter().map(|state| state.state(system)).collect();
-        assert_states(&report, system, &states, 1e-8, name);
         let brute = system.states().unwrap();
         assert_eq!(brute.len(), states.len(), "{name}: of the descriptor form");
-        for (state, other) in states.iter().zip(&brute) {
-            state.normal.iter().zip(&other.normal).for_each(|(a, b)| assert_close(*a, *b, 1.0, 1e-7));
-        }
+        let beside = |state: &State, other: &State| {
+            let distance = |(a, b): (&f64, &f64)| (a - b).abs();
+            state.normal.iter().zip(&other.normal).map(distance).fold(0.0, f64::max)
+        };
+        let states: Vec<State> = states
+            .iter()
+            .map(|state| {
+                let mut state = state.state(&system);
+                let other = brute
+                    .iter()
+                    .min_by(|one, other| beside(&state, one).total_cmp(&beside(&state, other)))
+                    .unwrap();
+                assert!(beside(&state, other) < 1e-6, "{name}");
+                // What belongs to the moving frames is not in the reference.
+                state.accelerations.extend(&other.accelerations[state.accelerations.len()..]);
+                state.efforts.extend(&other.efforts[state.efforts.len()..]);
+                state
+            })
+            .collect();
+        assert_states(&report, &system, &states, 1e-8, &name);
     }
 }
 
@@ -215,7 +233,7 @@ fn a_rod_that_turns_fast_opens_or_stays_as_a_threshold() {
     assert!(report.csv().contains("gap_acceleration"));
 }
 
-const BOX: &str = r#"
+pub(crate) const BOX: &str = r#"
 gravity = "9.81 m/s^2"
 [parameters]
 b = "200 mm"
@@ -406,7 +424,7 @@ fn what_is_not_known_yet_is_refused() {
 }
 
 /// The only fault of a text.
-fn fault(text: &str) -> FaultKind {
+pub(crate) fn fault(text: &str) -> FaultKind {
     let faults = try_report_on(text).unwrap_err();
     let all = faults.sorted();
     assert_eq!(all.len(), 1, "{faults}");
@@ -485,6 +503,15 @@ fn a_drawing_in_code_has_them() {
     drawing.slide("x", base).rate(-1.0);
     let report = report_on(&drawing.to_toml());
     assert_eq!(contact(only(&report), "base.front").side, -1);
+    let mut drawing = Drawing::new();
+    drawing.gravity(GRAVITY);
+    let body = drawing.body("disc").mass(1.0).inertia(0.02).centre([0.0, 0.2]).id();
+    let foot = drawing.disc_on_face("foot", body, Frame::Ground).at([0.0, 0.2]).radius(0.2).mu(0.3).id();
+    drawing.slide("x", foot).rate(1.0);
+    drawing.rotation("turn", body);
+    let report = report_on(&drawing.to_toml());
+    assert_eq!(foot.contact().index(), 0);
+    assert_close(contact(only(&report), "foot").friction_force, 0.3 * GRAVITY, 1.0, 1e-12);
 }
 
 /// Without friction, too, what would have to pull lifts off: a corner beneath a body that is drawn upwards needs no more than to lift it.

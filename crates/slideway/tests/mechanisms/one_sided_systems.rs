@@ -23,6 +23,16 @@ pub(crate) struct System {
     pub(crate) forces: Vec<Force>,
     #[serde(default)]
     pub(crate) drives: Vec<Drive>,
+    /// Frames whose rotation is prescribed.
+    #[serde(default)]
+    pub(crate) frames: Vec<Moving>,
+}
+
+#[derive(Debug, Clone, Deserialize)]
+pub(crate) struct Moving {
+    pub(crate) name: String,
+    pub(crate) pose: [f64; 3],
+    pub(crate) velocity: [f64; 3],
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -48,8 +58,20 @@ pub(crate) struct Contact {
     pub(crate) kind: String,
     pub(crate) body: String,
     pub(crate) guide: String,
+    /// The corner, or the centre of a disc.
     #[serde(rename = "C")]
     pub(crate) at: [f64; 2],
+    /// Radius of the disc.
+    #[serde(rename = "R", default)]
+    pub(crate) radius: f64,
+    /// Centre of a round face.
+    #[serde(rename = "C_A")]
+    pub(crate) centre: Option<[f64; 2]>,
+    /// Its radius, negative for a hole.
+    #[serde(rename = "R_A", default)]
+    pub(crate) guide_radius: f64,
+    /// Direction of a straight face.
+    #[serde(default)]
     pub(crate) angle: f64,
     pub(crate) mu: f64,
     #[serde(default)]
@@ -101,12 +123,23 @@ impl Contact {
     }
 
     pub(crate) fn tangent(&self) -> Vector {
-        Vector::new(self.angle.cos(), self.angle.sin())
+        let normal = self.normal();
+        Vector::new(normal.y, -normal.x)
     }
 
     pub(crate) fn normal(&self) -> Vector {
-        let tangent = self.tangent();
-        Vector::new(-tangent.y, tangent.x)
+        match self.centre {
+            Some(centre) => {
+                let sense = if self.guide_radius < 0.0 { -1.0 } else { 1.0 };
+                (Vector::from(self.at) - Vector::from(centre)).normalize() * sense
+            }
+            None => Vector::new(-self.angle.sin(), self.angle.cos()),
+        }
+    }
+
+    /// Where it touches its face.
+    fn touching(&self) -> [f64; 2] {
+        (Vector::from(self.at) - self.normal() * self.radius).into()
     }
 }
 
@@ -147,19 +180,49 @@ impl System {
 
     /// The row of a relative velocity of block and guide at a contact.
     pub(crate) fn relative(&self, contact: &Contact, axis: Vector) -> DVector<f64> {
-        self.place(&contact.body, contact.at, axis) - self.place(&contact.guide, contact.at, axis)
+        let at = contact.touching();
+        self.place(&contact.body, at, axis) - self.place(&contact.guide, at, axis)
     }
 
     pub(crate) fn sliding_velocity(&self, contact: &Contact) -> f64 {
         self.relative(contact, contact.tangent()).dot(&self.velocities())
     }
 
-    /// What the velocities add to the acceleration of the gap: the centripetal parts, and Coriolis' with the guide.
+    /// What the velocities add to the acceleration of the gap: the centripetal parts, and Coriolis' with a straight guide; of
+    /// discs that of both centres and what comes from the turning of the line between them.
     pub(crate) fn gap_of_velocities(&self, contact: &Contact) -> f64 {
-        let normal = contact.normal();
+        let (normal, opposite) = (contact.normal(), contact.centre.unwrap_or(contact.at));
+        let velocity = self.place(&contact.body, contact.at, contact.tangent())
+            - self.place(&contact.guide, opposite, contact.tangent());
+        let velocity = velocity.dot(&self.velocities());
+        let turning = match contact.centre {
+            Some(centre) => {
+                let distance = (Vector::from(contact.at) - Vector::from(centre)).norm();
+                velocity.powi(2) / distance * if contact.guide_radius < 0.0 { -1.0 } else { 1.0 }
+            }
+            None => -2.0 * self.spin(&contact.guide) * velocity,
+        };
         self.centripetal(&contact.body, contact.at, normal)
-            - self.centripetal(&contact.guide, contact.at, normal)
-            - 2.0 * self.spin(&contact.guide) * self.sliding_velocity(contact)
+            - self.centripetal(&contact.guide, opposite, normal)
+            + turning
+    }
+
+    /// With the moving frames as bodies that are hinged to ground and driven by a force one metre beside the hinge.
+    pub(crate) fn with_frames(mut self) -> Self {
+        for Moving { name, pose, velocity } in std::mem::take(&mut self.frames) {
+            let at = [pose[0] + 1.0, pose[1]];
+            self.hinges.push(Hinge { between: [name.clone(), "ground".to_owned()], at: [pose[0], pose[1]] });
+            self.drives.push(Drive {
+                body: name.clone(),
+                at,
+                direction: [0.0, 1.0],
+                acceleration: 0.0,
+                force_at: at,
+                force_along: [0.0, 1.0],
+            });
+            self.bodies.push(Body { name, m: 1.0, moment: 1.0, pose, velocity });
+        }
+        self
     }
 
     /// The rows of hinges and closed contacts.
@@ -242,6 +305,11 @@ impl System {
                 .iter()
                 .for_each(|body| points.push((body.clone(), format!("hinge_{index}"), hinge.at)));
         }
+        for contact in self.contacts.iter().filter(|contact| contact.centre.is_some()) {
+            let name = &contact.name;
+            points.push((contact.body.clone(), format!("{name}_disc"), contact.at));
+            points.push((contact.guide.clone(), format!("{name}_round"), contact.centre.unwrap_or_default()));
+        }
         let mut written: Vec<&str> = Vec::new();
         for (_, name, at) in &points {
             if !written.contains(&name.as_str()) {
@@ -263,14 +331,26 @@ impl System {
             writeln!(text, "[joints.hinge_{index}]\ntype = \"hinge\"\nbetween = {between:?}").unwrap();
         }
         for contact in &self.contacts {
-            let Contact { name, body, guide, at, angle, mu, .. } = contact;
-            let kind = if contact.opens() { "corner_on_face" } else { "pin_in_slot" };
-            writeln!(
-                text,
-                "[joints.{name}]\ntype = \"{kind}\"\nblock = \"{body}\"\nguide = \"{guide}\"\nat = {at:?}\nalong = {angle:?}\nmu = {mu:?}\nmu_static = {:?}",
-                contact.mu_static.unwrap_or(*mu)
-            )
-            .unwrap();
+            let Contact { name, body, guide, at, angle, mu, radius, guide_radius, .. } = contact;
+            let mu_static = contact.mu_static.unwrap_or(*mu);
+            writeln!(text, "[joints.{name}]\nmu = {mu:?}\nmu_static = {mu_static:?}").unwrap();
+            if contact.centre.is_some() {
+                let radii = [*radius, guide_radius.abs()];
+                writeln!(
+                    text,
+                    "type = \"disc_on_disc\"\ncentres = [\"{body}.{name}_disc\", \"{guide}.{name}_round\"]\nradii = {radii:?}\ninside = {}",
+                    *guide_radius < 0.0
+                )
+                .unwrap();
+                continue;
+            }
+            let kind = match (contact.opens(), *radius > 0.0) {
+                (true, true) => format!("\"disc_on_face\"\ncentre = {at:?}\nradius = {radius:?}"),
+                (true, false) => format!("\"corner_on_face\"\nat = {at:?}"),
+                (false, _) => format!("\"pin_in_slot\"\nat = {at:?}"),
+            };
+            writeln!(text, "type = {kind}\nblock = \"{body}\"\nguide = \"{guide}\"\nalong = {angle:?}")
+                .unwrap();
         }
         for (index, Force { body, components, couple, .. }) in self.forces.iter().enumerate() {
             writeln!(
@@ -450,16 +530,34 @@ pub(crate) fn random(
         if any(1.0) > 0.3 {
             std::mem::swap(&mut block, &mut guide);
         }
-        Contact {
+        let (at, angle, size) = ([any(1.5), any(1.5)], any(PI), any(1.0));
+        let mut contact = Contact {
             name: format!("k_{k}"),
             kind: if any(1.0) > -0.5 { "sliding" } else { "bilateral" }.to_owned(),
             body: block,
             guide,
-            at: [any(1.5), any(1.5)],
-            angle: any(PI),
+            at,
+            radius: 0.0,
+            centre: None,
+            guide_radius: 0.0,
+            angle,
             mu: 0.8 + any(0.8),
             mu_static: None,
+        };
+        if contact.opens() && size.abs() > 0.4 {
+            contact.radius = size.abs() - 0.3;
+            // A round face beside the disc, or a hole around it.
+            let face = any(1.5);
+            if face.abs() > 0.75 {
+                let distance = face.abs() + contact.radius * if face > 0.0 { 1.0 } else { -1.0 };
+                if distance > 0.1 {
+                    let away = Vector::new(-angle.sin(), angle.cos()) * (distance * face.signum());
+                    contact.centre = Some((Vector::from(at) - away).into());
+                    contact.guide_radius = face;
+                }
+            }
         }
+        contact
     };
     let contacts: Vec<Contact> = (0..contacts).map(|k| contact(k, &mut any)).collect();
     let hinges = if hinged && names.len() > 1 {
@@ -484,7 +582,7 @@ pub(crate) fn random(
         force_along: [1.2 + any(1.0), any(1.0)],
     };
     let drives = if driven { vec![drive] } else { Vec::new() };
-    let system = System { gravity, bodies, hinges, contacts, forces, drives };
+    let system = System { gravity, bodies, hinges, contacts, forces, drives, frames: Vec::new() };
     let rates: Vec<f64> = (0..3 * names.len()).map(|_| any(1.5)).collect();
     system.with_rates(rates.into_iter())
 }

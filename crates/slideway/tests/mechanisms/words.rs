@@ -10,6 +10,8 @@ use slideway::solve::mode_in_words;
 fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
     let (sin, cos) = angle.to_radians().sin_cos();
     let slider = Slider {
+        round: None,
+        apart: Vec::new(),
         kind,
         block: slideway::ids::Frame::Body(slideway::ids::BodyId(0)),
         guide: slideway::ids::Frame::Ground,

@@ -1,20 +1,30 @@
 //! Hinges and the three sliding joints.
 
 use super::super::file::{
-    CarriedBy, ContactTable, Entry, Fit, PadTable, PreloadLine, SliderTable, StopTable,
+    CarriedBy, Closed, ContactTable, End, Entry, Fit, PadTable, PreloadLine, SliderTable, StopTable,
 };
 use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
-use super::super::{Along, Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop};
+use super::super::{Along, Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop, Touches};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
 use crate::ids::FormulaId;
 use std::sync::Arc;
 
+/// Which contacts of a joint touch.
+fn touches(joint: &SliderTable) -> Touches {
+    match joint.closed {
+        None | Some(Closed::All(true)) => Touches::All,
+        Some(Closed::All(false)) => Touches::Nothing,
+        Some(Closed::One([End::Front])) => Touches::Front,
+        Some(Closed::One([End::Rear])) => Touches::Rear,
+    }
+}
+
 /// The friction of one contact, and its other properties, as they were read.
 #[derive(Clone, Copy, Default)]
-struct ReadFriction {
+pub(super) struct ReadFriction {
     mu: Option<[FormulaId; 2]>,
     mu_static: Option<[FormulaId; 2]>,
     preload: Option<[FormulaId; 2]>,
@@ -56,6 +66,9 @@ impl Reader<'_> {
                 Some(JointContents::Slider(slider)) => {
                     JointKind::Slider(Box::new(self.slider(slider, &entry.name, &entry.span)))
                 }
+                Some(JointContents::DiscOnDisc(discs)) => {
+                    JointKind::Slider(Box::new(self.disc_on_disc(discs, &entry.name, &entry.span)))
+                }
             };
             joints.push(Joint { name: Arc::from(entry.name), place: FaultPlace::model(entry.span), kind });
         }
@@ -69,9 +82,9 @@ impl Reader<'_> {
             SliderKind::Block => self.contacts_of_block(joint, all, name, span),
             SliderKind::Guided | SliderKind::Pin => vec![self.contact(all, name.to_owned(), name, span)],
         };
-        for contact in contacts.iter_mut().filter(|_| *opens) {
-            // Without a second face there is no friction at it.
-            (contact.opens, contact.mu[1], contact.mu_static[1]) = (true, self.zero, self.zero);
+        let touches = touches(joint);
+        if *opens {
+            self.open(&mut contacts, touches);
         }
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         Slider {
@@ -82,6 +95,9 @@ impl Reader<'_> {
             along: self.along_of(joint, name, span),
             length: joint.length.as_ref().map(|quantity| self.formula(quantity, length)),
             height: self.height(joint.height.as_ref(), name),
+            radius: joint.radius.as_ref().map(|radius| self.radius(radius, name)),
+            round: None,
+            touches,
             around: joint.fit == Some(Fit::Around),
             travel: self.travel(joint.travel.as_ref(), name),
             has_ends: joint.face.is_some(),
@@ -128,6 +144,29 @@ impl Reader<'_> {
             contacts.push(Contact { offset, ..self.contact(friction, contact, name, span) });
         }
         contacts
+    }
+
+    /// Makes contacts that may lift off of these, and leaves those that touch.
+    pub(super) fn open(&self, contacts: &mut Vec<Contact>, touches: Touches) {
+        let mut end = 0;
+        contacts.retain(|_| {
+            end += 1;
+            match touches {
+                Touches::All => true,
+                Touches::Front => end == 1,
+                Touches::Rear => end == 2,
+                Touches::Nothing => false,
+            }
+        });
+        for contact in contacts {
+            // Without a second face there is no friction at it.
+            (contact.opens, contact.mu[1], contact.mu_static[1]) = (true, self.zero, self.zero);
+        }
+    }
+
+    fn radius(&mut self, radius: &Quantity, name: &str) -> FormulaId {
+        let wanted = Wanted::constant(format!("the radius of {name}"), Dimension::LENGTH);
+        self.formula(radius, wanted.positive())
     }
 
     fn height(&mut self, height: Option<&Quantity>, name: &str) -> Option<FormulaId> {
@@ -197,7 +236,13 @@ impl Reader<'_> {
     }
 
     /// The friction of a contact; a pad that may be as long as the joint (`has_face`) needs no length.
-    fn friction(&mut self, written: &ContactTable, has_face: bool, name: &str, span: &Span) -> ReadFriction {
+    pub(super) fn friction(
+        &mut self,
+        written: &ContactTable,
+        has_face: bool,
+        name: &str,
+        span: &Span,
+    ) -> ReadFriction {
         let mut sides = |value: Option<&PerSide>, wanted: &dyn Fn() -> Wanted| {
             value.map(|value| self.sides(value, &|| wanted().not_negative()))
         };
@@ -238,7 +283,13 @@ impl Reader<'_> {
         }
     }
 
-    fn contact(&mut self, friction: ReadFriction, name: String, joint: &str, span: &Span) -> Contact {
+    pub(super) fn contact(
+        &mut self,
+        friction: ReadFriction,
+        name: String,
+        joint: &str,
+        span: &Span,
+    ) -> Contact {
         let mu = friction.mu.unwrap_or_else(|| {
             let kind = FaultKind::MissingKey { key: "mu".into(), table: format!("joints.{joint}") };
             self.fault(kind, span);

@@ -5,6 +5,7 @@
 
 mod bodies;
 mod coordinates;
+mod discs;
 mod hinges;
 mod joints;
 mod loads;
@@ -40,9 +41,9 @@ pub(super) fn read(text: &str) -> Result<Model, Faults> {
     faults.without_names_of_unknown_sections().without_consequences().or(model)
 }
 
-/// Whether an entry is a sliding joint; one that could not be read may be one.
+/// Whether an entry is a joint that slides along a line; one that could not be read may be one.
 fn slides(entry: &super::file::Entry<JointContents>) -> bool {
-    !matches!(entry.contents, Some(JointContents::Hinge(_)))
+    !matches!(entry.contents, Some(JointContents::Hinge(_) | JointContents::DiscOnDisc(_)))
 }
 
 /// Names of the coordinates that are angles.
