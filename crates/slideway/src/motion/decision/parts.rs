@@ -142,18 +142,24 @@ impl PhaseSearch<'_> {
         let is_large = stuck(&self.any_phase()) > FEW_RESTING;
         let mut most = 0;
         let undecided = RefCell::new(Vec::new());
-        for (tried, phase) in (1..).zip(self.patterns(group, &undecided)) {
+        let (mut tried, mut refused) = (0, 0);
+        for phase in self.patterns(group, &undecided) {
             if self.event.work.is_over() {
                 break;
             }
+            let counted = if phase.is_ok() { &mut tried } else { &mut refused };
+            *counted += 1;
             let limit = if list.is_empty() { MOST_STATES } else { FURTHER_STATES };
-            if tried > limit || (is_large && stuck(&phase) < most) {
+            let fewer = |phase: &Phase| is_large && stuck(phase) < most;
+            if tried > limit || refused > MOST_STATES || phase.as_ref().is_ok_and(fewer) {
                 if list.is_empty() {
-                    return Err(Fault::general(FaultKind::TooManyStates { states: tried, limit }).into());
+                    let states = tried.max(refused);
+                    return Err(Fault::general(FaultKind::TooManyStates { states, limit }).into());
                 }
                 found.complete = false;
                 break;
             }
+            let Ok(phase) = phase else { continue };
             if sieve.as_mut().is_some_and(|sieve| sieve.excludes(&phase)) {
                 continue;
             }
@@ -183,13 +189,13 @@ impl PhaseSearch<'_> {
     }
 
     /// All states of the joints and hinges of a group with all sides of the sliding contacts and all forces of the hinges
-    /// that turn, those with most sticking first; sticking contacts have any side. Those whose
-    /// forces remain undecided are noted.
+    /// that turn, those with most sticking first; sticking contacts have any side. Those that cannot begin are
+    /// errors, and those whose forces remain undecided are noted.
     fn patterns<'p>(
         &'p self,
         group: &'p Group,
         undecided: &'p RefCell<Vec<Phase>>,
-    ) -> impl Iterator<Item = Phase> + 'p {
+    ) -> impl Iterator<Item = Result<Phase, Phase>> + 'p {
         let rests = |number: &usize| self.event.sign_of(*number) == 0.0 && self.instant.may_stick(*number);
         let resting: Vec<usize> = self.members(group).filter(rests).collect();
         let most = u32::try_from(resting.len().min(MOST_RESTING)).unwrap_or(0);
@@ -204,9 +210,13 @@ impl PhaseSearch<'_> {
                 }
                 phase
             });
-            senses
-                .filter(|phase| self.can_begin(group, phase))
-                .flat_map(|phase| self.with_forces(group, phase, undecided))
+            senses.flat_map(|phase| -> Box<dyn Iterator<Item = Result<Phase, Phase>> + 'p> {
+                if self.can_begin(group, &phase) {
+                    Box::new(self.with_forces(group, phase, undecided).map(Ok))
+                } else {
+                    Box::new(std::iter::once(Err(phase)))
+                }
+            })
         })
     }
 
