@@ -73,7 +73,7 @@ const EQUAL_PLAY: &str = include_str!("findings/equal_play.toml");
 const TIPPING_PRESS: &str = include_str!("findings/tipping_press.toml");
 const GUIDED_GAP: &str = include_str!("findings/guided_gap.toml");
 const PEG: &str = include_str!("../../../docs/src/examples/peg-pushed-by-load.toml");
-/// A state in a preload gap and no other (Klepp (2002), without the force F_20).
+/// A state in a preload gap and no other (Klepp (2002), without the force `F_20`).
 const IN_GAP: [(&str, &str); 3] = [("mu_1", "0.24"), ("F_30", "0.5*m*g"), ("F_20", "0")];
 /// At mu = L / (2 a) = 2/3 the determinant is zero but for rounding.
 const VERGE: [(&str, &str); 1] = [("mu", "2/3")];
@@ -477,7 +477,7 @@ fn every_question_has_a_first_line_for_every_outcome() {
                     wrong.push(format!("{question:?} {outcome:?}: {told}\n  instead of\n{beginning}"));
                 }
                 NoReport(false) => {
-                    wrong.push(format!("{question:?} {outcome:?}: a part is reported as the whole"))
+                    wrong.push(format!("{question:?} {outcome:?}: a part is reported as the whole"));
                 }
                 Never("") => wrong.push(format!("{question:?} {outcome:?}: never, but why?")),
                 Line(..) | NoReport(true) | Never(_) => {}
