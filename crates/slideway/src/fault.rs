@@ -649,7 +649,7 @@ impl FaultKind {
                 "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
             ),
             Self::OneSidedInExcess { .. } => Some(
-                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play"
+                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
                     .to_owned(),
             ),
             Self::LiftsWithoutInertia { .. } => Some(

@@ -112,13 +112,12 @@ fn equations(system: &System, pattern: &[(Does, f64)]) -> (DMatrix<f64>, DVector
             continue;
         }
         constrain(at, &system.relative(contact, normal), -system.gap_of_velocities(contact));
-        match does {
-            Does::Rubs(sign) => frictions.push((tangential, at, contact.mu * sign * side)),
-            _ => {
-                let own = |body: &str| system.centripetal(body, contact.at, tangent);
-                let row = system.relative(contact, tangent);
-                constrain(tangential, &row, own(&contact.guide) - own(&contact.body));
-            }
+        if let Does::Rubs(sign) = does {
+            frictions.push((tangential, at, contact.mu * sign * side));
+        } else {
+            let own = |body: &str| system.centripetal(body, contact.at, tangent);
+            let row = system.relative(contact, tangent);
+            constrain(tangential, &row, own(&contact.guide) - own(&contact.body));
         }
     }
     for (index, drive) in system.drives.iter().enumerate() {
@@ -280,7 +279,7 @@ proptest! {
         }
         let rates = if slides { numbers.clone() } else { vec![0.0; 6] };
         let Some(system) = system.with_rates(rates.into_iter()) else { return Ok(()) };
-        prop_assume!(system.contacts.iter().any(|contact| contact.rests()));
+        prop_assume!(system.contacts.iter().any(crate::one_sided_systems::Contact::rests));
         let rows = system.rows_with_drives();
         let values = DMatrix::from_columns(&rows).singular_values();
         prop_assume!(system.joint_rows().len() < 3 * bodies && rows.len() <= 3 * bodies);
@@ -448,10 +447,17 @@ fn the_forces_of_a_ladder_are_a_continuum() {
     assert!((least - 817.726_924_8).abs() < 1e-6 && (greatest - 975.379_260_7).abs() < 1e-6, "{vertices:?}");
 }
 
-/// Two-sided contacts with friction at rest beside them are refused, and so are more states than are tried.
+/// Two-sided contacts with friction at rest beside them are refused, and so are three corners on a line.
 #[test]
 fn what_else_rests_is_refused() {
     let faults = solve(&Model::parse(&CART.replace("rate = 1", "rate = 0")).unwrap()).unwrap_err();
     let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
     assert!(matches!(kinds.as_slice(), [FaultKind::ZeroSlidingVelocity { .. }]), "{faults}");
+    let third = "[joints.third]\ntype = \"corner_on_face\"\nblock = \"box\"\nat = \"M\"\nalong = \"slope\"\nmu = 0.1\n[coordinates.x]";
+    let faults = solve(
+        &Model::parse(&BOX.replace("rate = \"-1 m/s\"", "").replace("[coordinates.x]", third)).unwrap(),
+    );
+    let faults = faults.unwrap_err();
+    let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
+    assert!(matches!(kinds.as_slice(), [FaultKind::OneSidedInExcess { .. }]), "{faults}");
 }
