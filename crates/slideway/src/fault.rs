@@ -655,7 +655,7 @@ impl FaultKind {
             Self::LiftsWithoutInertia { .. } => Some(
                 "give mass to the bodies that nothing else holds".to_owned(),
             ),
-            Self::OffFace { .. } => Some("draw it on the line through both ends of its face".to_owned()),
+            Self::OffFace { .. } => Some("draw it where it touches its face; what is apart is `closed = false`".to_owned()),
             Self::Penetration { .. } => Some(
                 "change the coordinates until there is a gap; what touches is `closed = true`, and needs one coordinate less"
                     .to_owned(),

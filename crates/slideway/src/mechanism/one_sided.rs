@@ -1,6 +1,6 @@
 //! Contacts that may lift off: what is open in a state is not there.
 
-use super::{Contact, JointKind, Mechanism};
+use super::{Contact, Joint, JointKind, Mechanism};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::interval::Real;
@@ -80,7 +80,15 @@ impl<T: Real> Mechanism<T> {
     /// A fault that names them, if there are some.
     pub(crate) fn check_no_one_sided(&self, question: &'static str) -> Result<(), Faults> {
         let contacts: Vec<ContactId> = self.one_sided().collect();
-        self.refuse(&contacts, |contacts| FaultKind::OneSided { question, contacts })
+        self.refuse(&contacts, |contacts| FaultKind::OneSided { question, contacts })?;
+        let is_apart = |joint: &&Joint<T>| match &joint.kind {
+            JointKind::Slider(slider) => !slider.apart.is_empty(),
+            JointKind::Hinge(_) => false,
+        };
+        let apart: Vec<&Joint<T>> = self.joints.iter().filter(is_apart).collect();
+        let Some(first) = apart.first() else { return Ok(()) };
+        let contacts = apart.iter().map(|joint| joint.name.to_string()).collect();
+        Err(Fault::new(FaultKind::OneSided { question, contacts }, first.place.clone()).into())
     }
 
     fn refuse(
