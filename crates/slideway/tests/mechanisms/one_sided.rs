@@ -397,7 +397,7 @@ fn the_peg_locks_at_the_friction_of_the_reference() {
 /// The latch of the reference locks where the force on its nose points to its pivot: `mu = (P x n)/(P x u) = 0.5472587141`.
 #[test]
 fn the_latch_locks_at_the_friction_of_the_closed_form() {
-    let model = Model::parse(include_str!("../../../../docs/src/examples/latch.toml")).unwrap();
+    let model = Model::parse(include_str!("../../../../docs/src/examples/latch-with-pawl.toml")).unwrap();
     let report = limits(&model, &LimitsOptions::new("mu=0..1".parse().unwrap())).unwrap();
     let (sin, cos) = 50_f64.to_radians().sin_cos();
     let critical = (0.1 * cos - 0.02 * sin) / (0.1 * sin + 0.02 * cos);
