@@ -4,6 +4,7 @@ use super::{Contact, Joint, JointKind, Mechanism};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::interval::Real;
+use crate::model::SliderKind;
 use crate::modes::ContactState;
 
 impl<T> Mechanism<T> {
@@ -89,6 +90,20 @@ impl<T: Real> Mechanism<T> {
         let Some(first) = apart.first() else { return Ok(()) };
         let contacts = apart.iter().map(|joint| joint.name.to_string()).collect();
         Err(Fault::new(FaultKind::OneSided { question, contacts }, first.place.clone()).into())
+    }
+
+    /// Refuses discs at rest, as they may roll: how their rims begin to slide is not known.
+    ///
+    /// # Errors
+    /// A fault that names them, if there are some.
+    pub(crate) fn check_no_disc_at_rest(&self, rests: impl Fn(usize) -> bool) -> Result<(), Faults> {
+        let is_disc = |contact: &ContactId| {
+            let slider = self.slider(self.contacts[contact.index()].joint);
+            slider.is_some_and(|slider| slider.kind == SliderKind::Pin && slider.height.upper() > 0.0)
+        };
+        let discs: Vec<ContactId> =
+            self.one_sided().filter(|contact| rests(contact.index()) && is_disc(contact)).collect();
+        self.refuse(&discs, |contacts| FaultKind::DiscAtRest { contacts })
     }
 
     fn refuse(

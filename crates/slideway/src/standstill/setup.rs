@@ -79,6 +79,7 @@ impl Setup {
     pub(super) fn new(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
+        original.check_no_disc_at_rest(|_| true)?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();
         configuration.put_misalignments(&mut mechanism)?;

@@ -111,7 +111,7 @@ fn a_jammed_mechanism_is_told_what_would_free_it() {
     let below = margins(&report).moves_below.expect("it locks");
     assert!((below.factor - 2.0 / 2.7).abs() < 1e-12);
     assert!((below.mu.expect("the same everywhere") - 2.0 / 3.0).abs() < 1e-12);
-    let told = "It jams: no force of push moves it. It moves below mu = 0.6667 (0.7407 times this friction).";
+    let told = "It jams: no force of push moves it. It moves below mu = 0.6667.";
     assert_eq!(report.answer(), told);
     assert_eq!(margins(&crate::answers::report("drawer", &[])).moves_below, None);
 }

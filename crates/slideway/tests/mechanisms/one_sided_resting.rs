@@ -15,6 +15,7 @@ use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
 use slideway::report::{Report, Solution, SolveReport, Status};
 use slideway::solve::solve;
+use slideway::{HoldOptions, hold};
 
 const REFERENCE: &str = include_str!("../../../../reference/one-sided-rest.toml");
 const BOX: &str = include_str!("../../../../docs/src/examples/box-on-incline.toml");
@@ -274,6 +275,8 @@ proptest! {
                 contact.mu = 0.0;
             } else if contact.kind == "sliding" && (k == 0 || !slides) {
                 contact.kind = "resting".to_owned();
+                // Discs are refused at rest.
+                (contact.radius, contact.centre) = (0.0, None);
                 contact.mu_static = Some(contact.mu * (1.0 + 0.2 * (1.0 + numbers[k]))).filter(|_| more == 0);
             }
         }
@@ -460,4 +463,17 @@ fn what_else_rests_is_refused() {
     let faults = faults.unwrap_err();
     let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
     assert!(matches!(kinds.as_slice(), [FaultKind::OneSidedInExcess { .. }]), "{faults}");
+}
+
+/// A disc at rest may roll; nothing is said of it.
+#[test]
+fn discs_at_rest_are_refused() {
+    let text = "gravity = [0, -9.81]\n[points]\nC = [0, 0.1]\n[bodies.disc]\npoints = [\"C\"]\nmass = 1\nmoment_of_inertia = 0.005\n\
+                centre_of_mass = \"C\"\n[joints.foot]\ntype = \"disc_on_face\"\nblock = \"disc\"\ncentre = \"C\"\nradius = 0.1\n\
+                along = 0\nmu = 0.3\n[coordinates.x]\nx = \"disc.C\"\nrate = 0\n[coordinates.turn]\nrotation = \"disc\"\nrate = 0\n";
+    let model = Model::parse(text).unwrap();
+    for faults in [solve(&model).unwrap_err(), hold(&model, &HoldOptions::default()).unwrap_err()] {
+        let kind = &faults.sorted()[0].kind;
+        assert!(matches!(kind, FaultKind::DiscAtRest { contacts } if contacts == &["foot"]), "{faults}");
+    }
 }

@@ -87,7 +87,7 @@ fn a_wedged_drawer_can_hold_anything() {
     let unbounded = Range { least: None, greatest: None };
     assert!(reactions.contacts.iter().all(|contact| contact.normal_force == unbounded));
     let text = report.text(Style::PLAIN);
-    assert!(text.contains("The guides can wedge, from mu_static = 0.6667 (now 0.7)."), "{text}");
+    assert!(text.contains("The guides can wedge, from mu = 0.6667 (now 0.7)."), "{text}");
     assert!(text.contains("depends on how it came to rest"), "{text}");
     let below = resting(&drawer(&[("mu", "0.6")]), &HoldOptions::default().load("resistance"));
     let held = &below.load.as_ref().unwrap().held;
@@ -95,9 +95,7 @@ fn a_wedged_drawer_can_hold_anything() {
     assert_eq!(held, &[Range { least: Some(0.0), greatest: Some(0.0) }]);
     assert_eq!(below.releases[0].patterns, ["0000"]);
     assert!(
-        below
-            .text(Style::PLAIN)
-            .contains("The guides cannot wedge; they could from mu_static = 0.6667 (now 0.6).")
+        below.text(Style::PLAIN).contains("The guides cannot wedge; they could from mu = 0.6667 (now 0.6).")
     );
 }
 

@@ -84,6 +84,7 @@ fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<R
     if joints.is_empty() {
         return Ok(joints);
     }
+    mechanism.check_no_disc_at_rest(rests)?;
     let mut others = mechanism.clone();
     for joint in &joints {
         joint

@@ -2,7 +2,7 @@
 
 use super::{Pattern, Resting, RestingJoint, Start, TOLERANCE};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, Frame};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Contact, Mechanism};
 use crate::modes::ContactState;
@@ -104,7 +104,7 @@ impl Resting<'_> {
             None => -system.base[self.place(row)] / force,
             Some(stuck) => {
                 let joint = system.sticking[stuck];
-                -self.joints[joint].row.acceleration(&system.base) / self.acceleration(system, joint)
+                -self.joints[joint].row.acceleration(&system.base) / self.acceleration(joint)
             }
         });
         AffineSet::of(matrix, right)
@@ -126,7 +126,7 @@ impl Resting<'_> {
             Some(stuck) => {
                 let joint = system.sticking[stuck];
                 let change = self.joints[joint].row.change(&system.columns[column]);
-                change * self.force() / self.acceleration(system, joint)
+                change * self.force() / self.acceleration(joint)
             }
         })
     }
@@ -154,7 +154,7 @@ impl Resting<'_> {
         }
         for (joint, start) in system.pattern.starts.iter().enumerate() {
             let Some(Start::Slips(sign)) = start else { continue };
-            let unit = self.acceleration(system, joint);
+            let unit = self.acceleration(joint);
             let row = &self.joints[joint].row;
             let at_zero = AffineExpression::constant(sign * row.acceleration(&system.base) / unit);
             beginning.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
@@ -172,6 +172,9 @@ impl Resting<'_> {
         let smooth = self.system(system.pattern.clone(), &self.smooth);
         let (matrix, without) = (self.matrix(system), self.matrix(&smooth));
         let of_smooth = without.determinant();
+        if without.row_iter().any(|row| row.norm() <= TOLERANCE) {
+            return None;
+        }
         let size: f64 = without.row_iter().map(|row| row.norm()).product();
         let factor = self.scale(system) / self.scale(&smooth);
         (of_smooth.abs() > TOLERANCE * size).then(|| matrix.determinant() / of_smooth * factor)
@@ -195,7 +198,7 @@ impl Resting<'_> {
 
     /// By what the rows of a matrix are divided.
     pub(super) fn scale(&self, system: &System) -> f64 {
-        system.sticking.iter().map(|&joint| self.acceleration(system, joint)).product()
+        system.sticking.iter().map(|&joint| self.acceleration(joint)).product()
     }
 
     pub(super) fn is_open(&self, pattern: &Pattern, k: usize) -> bool {
@@ -213,13 +216,17 @@ impl Resting<'_> {
         if greatest > 0.0 { greatest } else { 1.0 }
     }
 
-    /// The greatest acceleration of sliding of a joint that a unit of force causes in a pattern.
-    pub(super) fn acceleration(&self, system: &System, joint: usize) -> f64 {
-        let row = &self.joints[joint].row;
-        let changes = system.columns.iter().map(|column| row.change(column).abs());
-        let own = row.change(&self.stages.influence.columns[self.joints[joint].contacts[0]][0]).abs();
-        let greatest = changes.fold(own, f64::max) * self.force();
-        if greatest > 0.0 { greatest } else { 1.0 }
+    /// What the unit of force would do to the lighter body of a joint alone, beside which accelerations of sliding are
+    /// rounding: what other joints hold moves by nothing else.
+    pub(super) fn acceleration(&self, joint: usize) -> f64 {
+        let Stages { mechanism, .. } = self.stages;
+        let own = mechanism.slider(self.joints[joint].joint);
+        let own = own.into_iter().flat_map(|slider| [slider.block, slider.guide]).filter_map(Frame::body);
+        let least =
+            |masses: &mut dyn Iterator<Item = f64>| masses.filter(|mass| *mass > 0.0).min_by(f64::total_cmp);
+        let mass = least(&mut own.map(|body| mechanism.bodies[body.index()].mass))
+            .or_else(|| least(&mut mechanism.bodies.iter().map(|body| body.mass)));
+        self.force() / mass.unwrap_or(1.0)
     }
 }
 
