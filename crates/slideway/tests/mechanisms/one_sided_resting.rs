@@ -283,6 +283,9 @@ proptest! {
         let rates = if slides { numbers.clone() } else { vec![0.0; 6] };
         let Some(system) = system.with_rates(rates.into_iter()) else { return Ok(()) };
         prop_assume!(system.contacts.iter().any(crate::one_sided_systems::Contact::rests));
+        // Of random velocities that nearly all is taken from, rounding is a part that counts as sliding.
+        let fastest = system.bodies.iter().flat_map(|body| body.velocity).fold(0.0_f64, |most, v| most.max(v.abs()));
+        prop_assume!(fastest == 0.0 || fastest > 1e-3);
         let rows = system.rows_with_drives();
         let values = DMatrix::from_columns(&rows).singular_values();
         prop_assume!(system.joint_rows().len() < 3 * bodies && rows.len() <= 3 * bodies);
@@ -293,7 +296,7 @@ proptest! {
         prop_assume!(system.contacts.iter().all(slides));
         let Some((states, leaves_open)) = native_states(&system) else { return Err(TestCaseError::reject("rounding")) };
         let report = report_on(&system.text());
-        prop_assert!(!report.at_rest.is_empty());
+        prop_assert!(!report.at_rest.is_empty(), "{}", system.text());
         prop_assert!(leaves_open || report.continua.is_empty(), "{}", system.text());
         assert_states(&report, &system, &states, 1e-7, "random");
         if report.every_load_has_one_state == Some(true) {
