@@ -259,7 +259,7 @@ impl KineticEquations {
         Ok(equations)
     }
 
-    /// Whether what moves once all contacts that may lift off are open has inertia.
+    /// Returns whether what moves once all contacts that may lift off are open has inertia.
     fn check_open(&self, mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
         let contacts: Vec<usize> = self.layout.one_sided.iter().map(|contact| contact.index()).collect();
         let Some(first) = contacts.first() else { return Ok(()) };

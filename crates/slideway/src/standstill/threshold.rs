@@ -117,7 +117,7 @@ pub(super) fn wedging(
     Ok(Some(told(setup, &law, &least)))
 }
 
-/// Whether a name stands for a factor on all friction, not for a parameter.
+/// Returns whether a name stands for a factor on all friction, not for a parameter.
 fn is_factor(model: &Model, name: &str) -> bool {
     name == FRICTION && model.parameters.iter().all(|one| &*one.name != name)
 }

@@ -41,7 +41,7 @@ pub(super) fn read(text: &str) -> Result<Model, Faults> {
     faults.without_names_of_unknown_sections().without_consequences().or(model)
 }
 
-/// Whether an entry is a joint that slides along a line; one that could not be read may be one.
+/// Returns whether an entry is a joint that slides along a line; one that could not be read may be one.
 fn slides(entry: &super::file::Entry<JointContents>) -> bool {
     !matches!(entry.contents, Some(JointContents::Hinge(_) | JointContents::DiscOnDisc(_)))
 }

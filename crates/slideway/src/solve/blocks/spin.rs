@@ -142,7 +142,7 @@ impl FreeTurns {
         Self(if still.is_empty() { DMatrix::zeros(0, 0) } else { free_motions(mechanism, configuration) })
     }
 
-    /// Whether some of them turns this hinge.
+    /// Returns whether some of them turns this hinge.
     fn turn(&self, mechanism: &Mechanism, joint: JointId) -> bool {
         let JointKind::Hinge(ends) = &mechanism.joints[joint.index()].kind else { return false };
         let Self(motions) = self;

@@ -409,7 +409,7 @@ impl State<'_> {
         self.of_accelerations(row.iter().copied().enumerate(), self.setup.units.acceleration)
     }
 
-    /// Whether a contact that may lift off does.
+    /// Returns whether a contact that may lift off does.
     fn lifts_off(&self, k: usize) -> bool {
         self.setup.mechanism.contacts[k].opens && self.pattern.contacts[k] == ContactPhase::PreloadGap
     }
