@@ -15,7 +15,7 @@
 
 use super::ContactStates;
 use nalgebra::Vector2;
-use slideway::ids::{BodyId, ContactId, Frame, JointId};
+use slideway::ids::{BodyId, Frame, JointId};
 use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
 use slideway::model::outline::polygon;
 use slideway::model::{CarriedBy, SliderKind};
@@ -87,7 +87,7 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
         let look = of_geometry(mechanism, slider);
         let pulls =
             |side: f64| slider.contacts.iter().any(|contact| side * states.side(contact.index()) < 0.0);
-        let may_lift_off = may_lift_off(mechanism, slider);
+        let may_lift_off = mechanism.may_lift_off(slider);
         looks[id.index()] = match look {
             look if may_lift_off => look,
             Look::Face(side) | Look::Flank(side) if pulls(side) || states.has_deflections(slider) => {
@@ -107,13 +107,8 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
     looks
 }
 
-fn may_lift_off(mechanism: &Mechanism, slider: &Slider) -> bool {
-    let opens = |contact: &ContactId| mechanism.contacts[contact.index()].opens;
-    !slider.apart.is_empty() || slider.contacts.iter().any(opens)
-}
-
 fn of_geometry(mechanism: &Mechanism, slider: &Slider) -> Look {
-    if may_lift_off(mechanism, slider) {
+    if mechanism.may_lift_off(slider) {
         return Look::Face(1.0);
     }
     if slider.kind == SliderKind::Pin {

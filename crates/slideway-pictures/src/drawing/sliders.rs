@@ -223,7 +223,7 @@ impl Painter<'_> {
     fn slide_of(&self, joint: JointId, slider: &Slider) -> Slide {
         let look = self.looks[joint.index()];
         let height = self.drawn_height(slider, look);
-        let is_disc = slider.kind == SliderKind::Pin && slider.height > 0.0;
+        let is_disc = slider.is_disc();
         // The middle of a block is on its face, that of a disc above it.
         let lift = if let (Look::Face(side), false) = (look, is_disc) { 0.5 * side * height } else { 0.0 };
         let drawn_gap = slider.apart.first().map_or(0.0, |(_, gap)| gap * self.view.scale);
@@ -278,7 +278,7 @@ impl Painter<'_> {
             height,
             is_disc,
             round: slider.round.map(|round| RoundFace {
-                centre: self.attached(&Attachment { frame: slider.guide, position: round.centre.into() }),
+                centre: self.attached(&slider.centre_of(&round)),
                 radius: round.radius * scale,
                 inside: round.inside,
             }),
@@ -306,7 +306,7 @@ impl Painter<'_> {
         let is_nut = |body| corners(self.mechanism, body).is_none();
         match look {
             Look::Flank(_) => 0.0,
-            _ if slider.kind == SliderKind::Pin && slider.height > 0.0 => slider.height * scale,
+            _ if slider.is_disc() => slider.height * scale,
             Look::Face(_) if slider.block.body().is_some_and(is_nut) => {
                 (NUT * slider.length * scale).clamp(LEAST_HEIGHT, HIGHEST_NUT)
             }

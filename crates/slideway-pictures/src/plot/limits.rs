@@ -298,12 +298,9 @@ fn cause_in_words(cause: ModeEndCause, contacts: &[String]) -> Option<String> {
     let plural = contacts.len() > 1;
     Some(match cause {
         ModeEndCause::Locking | ModeEndCause::WithoutBound => cause.in_words().to_owned(),
-        ModeEndCause::SideChange if plural => format!("{at} change side"),
-        ModeEndCause::SideChange => format!("{at} changes side"),
-        ModeEndCause::LiftsOff if plural => format!("{at} lift off"),
-        ModeEndCause::LiftsOff => format!("{at} lifts off"),
-        ModeEndCause::Touches if plural => format!("{at} stay closed"),
-        ModeEndCause::Touches => format!("{at} stays closed"),
+        ModeEndCause::SideChange | ModeEndCause::LiftsOff | ModeEndCause::Touches => {
+            format!("{at} {}", cause.of_contacts(plural))
+        }
         ModeEndCause::Fold => "fold".to_owned(),
         ModeEndCause::HingeUnloaded => format!("no force in {at}"),
         ModeEndCause::GapCloses => format!("gap of {at} closes"),

@@ -457,7 +457,7 @@ fn bodies(mechanism: &Mechanism, configuration: &Configuration) -> Vec<BodySumma
 fn face_form(slider: &Slider) -> JointForm {
     match slider.kind {
         _ if slider.round.is_some() => JointForm::DiscOnDisc,
-        SliderKind::Pin if slider.height > 0.0 => JointForm::DiscOnFace,
+        _ if slider.is_disc() => JointForm::DiscOnFace,
         SliderKind::Pin if slider.length > 0.0 => JointForm::BlockOnFace,
         SliderKind::Pin => JointForm::CornerOnFace,
         SliderKind::Block | SliderKind::Guided => JointForm::BlockOnFace,
@@ -470,9 +470,8 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
         let (kind, frames, constraints, slider) = match &joint.kind {
             JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
-                let opens = slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens);
                 let (kind, constraints) = match slider.kind {
-                    _ if opens || !slider.apart.is_empty() => (face_form(slider), slider.contacts.len()),
+                    _ if mechanism.may_lift_off(slider) => (face_form(slider), slider.contacts.len()),
                     SliderKind::Block => (JointForm::BlockSlider, mechanism.places_of(slider).count()),
                     SliderKind::Guided => (JointForm::GuidedSlider, 2),
                     SliderKind::Pin => (JointForm::PinInSlot, 1),

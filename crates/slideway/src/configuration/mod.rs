@@ -293,7 +293,7 @@ impl<T: Real> Configuration<T> {
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
         let velocity_at_point = tangent.dot(&relative);
         let mut sliding_velocity = velocity_at_point;
-        if slider.kind == SliderKind::Pin && !slider.height.is_zero() {
+        if slider.is_disc() {
             let spin = self.angular_velocity(slider.block) - self.angular_velocity(slider.guide);
             sliding_velocity += spin * (slider.height / T::exactly(2.0));
         }
@@ -412,8 +412,7 @@ fn middle_points<T: Real>(slider: &Slider<T>) -> [Attachment<T>; 2] {
 
 /// The centre of a disc as a point of the block, and that of its round face as one of the guide.
 fn round_ends<T: Real>(slider: &Slider<T>, round: &Round<T>) -> [Attachment<T>; 2] {
-    let centre = Attachment { frame: slider.guide, position: round.centre.into() };
-    [Attachment { frame: slider.block, position: slider.at }, centre]
+    [Attachment { frame: slider.block, position: slider.at }, slider.centre_of(round)]
 }
 
 /// The unit of a coordinate.

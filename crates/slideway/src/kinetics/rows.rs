@@ -148,8 +148,7 @@ impl<T: Real> ConstraintRow<T> {
         (slider, round): (&Slider<T>, &Round<T>),
         contact: &ContactGeometry<T>,
     ) {
-        let centre = Attachment { frame: slider.guide, position: round.centre.into() };
-        let centre = configuration.position(mechanism, &centre);
+        let centre = configuration.position(mechanism, &slider.centre_of(round));
         self.add(configuration, slider.guide, centre, -contact.normal);
         let velocity = configuration.velocity_at(slider.block, contact.point)
             - configuration.velocity_at(slider.guide, centre);

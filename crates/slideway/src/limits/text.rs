@@ -317,12 +317,9 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
                 }
             }
         }
-        ModeEndCause::SideChange if several => format!("{at} change side"),
-        ModeEndCause::SideChange => format!("{at} changes side"),
-        ModeEndCause::LiftsOff if several => format!("{at} lift off"),
-        ModeEndCause::LiftsOff => format!("{at} lifts off"),
-        ModeEndCause::Touches if several => format!("{at} stay closed"),
-        ModeEndCause::Touches => format!("{at} stays closed"),
+        ModeEndCause::SideChange | ModeEndCause::LiftsOff | ModeEndCause::Touches => {
+            format!("{at} {}", is.of_contacts(several))
+        }
         ModeEndCause::GapCloses => format!("the gap of {at} closes"),
         ModeEndCause::Tipping if several => format!("{at} tip"),
         ModeEndCause::Tipping => format!("{at} tips"),

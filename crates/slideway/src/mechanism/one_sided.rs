@@ -1,13 +1,30 @@
 //! Contacts that may lift off: what is open in a state is not there.
 
-use super::{Contact, Joint, JointKind, Mechanism};
+use super::{Attachment, Contact, Joint, JointKind, Mechanism, Slider};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::interval::Real;
-use crate::model::SliderKind;
+use crate::model::{Round, SliderKind};
 use crate::modes::ContactState;
 
+impl<T: Real> Slider<T> {
+    /// Returns whether the block is a disc: a pin whose friction acts at its rim, at half its height.
+    pub fn is_disc(&self) -> bool {
+        self.kind == SliderKind::Pin && !self.height.is_zero()
+    }
+
+    /// The centre of the round face of its guide.
+    pub fn centre_of(&self, round: &Round<T>) -> Attachment<T> {
+        Attachment { frame: self.guide, position: round.centre.into() }
+    }
+}
+
 impl<T> Mechanism<T> {
+    /// Returns whether a joint may lift off its face, or is apart from it.
+    pub fn may_lift_off(&self, slider: &Slider<T>) -> bool {
+        !slider.apart.is_empty() || slider.contacts.iter().any(|contact| self.contacts[contact.index()].opens)
+    }
+
     /// The contacts that may lift off.
     pub(crate) fn one_sided(&self) -> impl Iterator<Item = ContactId> + '_ {
         (0..self.contacts.len()).filter(|&k| self.contacts[k].opens).map(ContactId)
@@ -98,8 +115,7 @@ impl<T: Real> Mechanism<T> {
     /// A fault that names them, if there are some.
     pub(crate) fn check_no_disc_at_rest(&self, rests: impl Fn(usize) -> bool) -> Result<(), Faults> {
         let is_disc = |contact: &ContactId| {
-            let slider = self.slider(self.contacts[contact.index()].joint);
-            slider.is_some_and(|slider| slider.kind == SliderKind::Pin && slider.height.upper() > 0.0)
+            self.slider(self.contacts[contact.index()].joint).is_some_and(Slider::is_disc)
         };
         let discs: Vec<ContactId> =
             self.one_sided().filter(|contact| rests(contact.index()) && is_disc(contact)).collect();

@@ -66,6 +66,18 @@ impl ModeEndCause {
 }
 
 impl ModeEndCause {
+    /// What contacts do at an end by a change of side: "lifts off", or of several "lift off".
+    pub fn of_contacts(self, several: bool) -> &'static str {
+        match (self, several) {
+            (Self::LiftsOff, true) => "lift off",
+            (Self::LiftsOff, false) => "lifts off",
+            (Self::Touches, true) => "stay closed",
+            (Self::Touches, false) => "stays closed",
+            (_, true) => "change side",
+            (_, false) => "changes side",
+        }
+    }
+
     /// The cause of an end beyond which there is no solution at all, or another one; `closed` says of a contact that may
     /// lift off whether it is closed in the mode.
     pub(crate) fn new(

@@ -458,12 +458,9 @@ fn margin_in_words(margin: &ModeMargin, slows_though_pushed: bool) -> String {
     let end = match margin.ends_with {
         ModeEndCause::Locking => "it jams".to_owned(),
         ModeEndCause::WithoutBound => "its forces grow without limit".to_owned(),
-        ModeEndCause::SideChange if margin.contacts.len() > 1 => format!("{contacts} change side"),
-        ModeEndCause::SideChange => format!("{contacts} changes side"),
-        ModeEndCause::LiftsOff if margin.contacts.len() > 1 => format!("{contacts} lift off"),
-        ModeEndCause::LiftsOff => format!("{contacts} lifts off"),
-        ModeEndCause::Touches if margin.contacts.len() > 1 => format!("{contacts} stay closed"),
-        ModeEndCause::Touches => format!("{contacts} stays closed"),
+        ModeEndCause::SideChange | ModeEndCause::LiftsOff | ModeEndCause::Touches => {
+            format!("{contacts} {}", margin.ends_with.of_contacts(margin.contacts.len() > 1))
+        }
         ModeEndCause::GapCloses => format!("the gap of {contacts} closes"),
         ModeEndCause::Fold => "it merges with another solution".to_owned(),
         ModeEndCause::HingeUnloaded => "the force of a hinge vanishes".to_owned(),
