@@ -3,9 +3,9 @@
 
 use crate::arguments::CheckFormat;
 use crate::failure::Failure;
-use crate::own_file::wrote;
 use crate::places::{followed, is_regular};
 use anstream::{AutoStream, ColorChoice};
+use slideway::printable;
 use slideway::report::{Report, Style};
 use slideway_tables::{PARTIAL, beside};
 use std::fs;
@@ -215,6 +215,11 @@ impl OutputFile {
             Err(error) => Err(failure(error.error)),
         }
     }
+}
+
+/// "Wrote drawer.svg."
+pub(crate) fn wrote(path: &Path) -> String {
+    format!("Wrote {}.\n", printable::line(&path.display().to_string()))
 }
 
 /// Writes a message to standard error; if that is closed there is nobody to tell.

@@ -3,8 +3,7 @@
 use crate::arguments::Destination;
 use crate::failure::Failure;
 use crate::files::Files;
-use crate::output::Output;
-use slideway::printable;
+use crate::output::{Output, wrote};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -56,11 +55,6 @@ impl Document {
             _ => Ok(()),
         }
     }
-}
-
-/// "Wrote drawer.svg."
-pub(crate) fn wrote(path: &Path) -> String {
-    format!("Wrote {}.\n", printable::line(&path.display().to_string()))
 }
 
 /// NAME with this ending, NAME-2, NAME-3 and so on: the first that does not exist. The name is that of the model, the

@@ -8,11 +8,17 @@
 use crate::ids::JointId;
 use crate::interval::{Interval, Real};
 use crate::mechanism::{FrictionCircle, Mechanism};
+use crate::model::SliderKind;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::certificate::IntervalMatrix;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblemError};
 use nalgebra::{DMatrix, DVector};
 use std::ops::Range;
+
+/// Versions of an influence column that differ by less than this multiple of it are the same.
+pub(crate) const SAME_COLUMN: f64 = 1e-12;
+/// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
+pub(crate) const NO_INFLUENCE: f64 = 1e-13;
 
 /// A hinge with friction that turns.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -137,4 +143,32 @@ pub(crate) fn friction_of_contacts<T: Real>(
         BySide { positive: side(0), negative: side(1) }
     };
     [of(&|k| contacts[k].mu), of(&|k| contacts[k].preload)]
+}
+
+/// Both versions of the influence coefficients of rows, a column for each contact, without the rounding that would stand
+/// where friction has no influence; equal where the theory says so, which rounding would hide: for guided sliders, whose
+/// couple takes up the moment of friction, and wherever the moment of friction has no influence.
+pub(crate) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) -> BySide<DMatrix<f64>> {
+    let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
+    let [positive, mut negative] = eta.map(|eta| eta.map(without_rounding));
+    for (k, contact) in mechanism.contacts.iter().enumerate() {
+        let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
+        let difference = (positive.column(k) - negative.column(k)).amax();
+        if guided || difference <= SAME_COLUMN * positive.column(k).amax() {
+            negative.set_column(k, &positive.column(k));
+        }
+    }
+    BySide { positive, negative }
+}
+
+/// The columns of the preload's friction: at the pressed face, or in the middle between both.
+pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
+    let mut preload = eta.clone();
+    for (k, contact) in mechanism.contacts.iter().enumerate() {
+        for row in 0..eta.positive.nrows() {
+            let faces = [eta.positive[(row, k)], eta.negative[(row, k)]];
+            [preload.positive[(row, k)], preload.negative[(row, k)]] = contact.preload_line.of_faces(faces);
+        }
+    }
+    preload
 }

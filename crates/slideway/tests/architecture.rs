@@ -20,7 +20,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("influence", &["ids", "kinetics"]),
     ("law", &["interval", "mechanism", "model", "modes"]),
     ("report", &["choice", "fault", "ids", "printable", "units"]),
-    ("problem", &["ids", "interval", "mechanism", "modes"]),
+    ("problem", &["ids", "interval", "mechanism", "model", "modes"]),
     ("sharing", &["fault", "interval", "mechanism", "modes", "report"]),
     (
         "enclosure",
@@ -39,7 +39,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
         ],
     ),
     ("attainability", &["configuration", "ids", "kinetics", "mechanism", "modes", "report", "sharing"]),
-    ("pattern", &["ids", "mechanism", "model", "modes", "progress"]),
+    ("pattern", &["configuration", "ids", "mechanism", "model", "modes", "progress", "units"]),
     ("import", &["drawing", "expression", "fault", "model", "printable", "progress"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),

@@ -3,7 +3,7 @@
 use crate::configuration::Configuration;
 use crate::mechanism::{Mechanism, Slider};
 use crate::model::{Attachment, Coordinate, CoordinateKind, Model};
-use crate::solve::sliding_in_words;
+use crate::pattern::sliding_in_words;
 
 /// "drawer slides along (1, 0)"
 pub(super) fn of_joint(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> String {

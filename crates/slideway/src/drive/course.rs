@@ -1,7 +1,7 @@
 //! The efforts over a parameter, a coordinate or friction.
 
 use super::efforts::{Efforts, GROWTH};
-use super::peak::peaks;
+use super::peak::{SAME_ROW, peaks};
 use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
@@ -13,8 +13,6 @@ use crate::scan::{bisect_until, evenly};
 use crate::solve::{Stages, pattern};
 use std::ops::ControlFlow;
 
-/// Rows nearer to a blow-up than this share of the range give way to it.
-pub(super) const SAME_ROW: f64 = 1e-9;
 /// Places nearer to zero than this share of the range are zero.
 const ROUNDING: f64 = 1e-12;
 /// Steps between which efforts that pass through infinity, and changes of the number of solutions, are sought.

@@ -1,12 +1,14 @@
 //! Where over a range an effort is greatest.
 
-use super::course::SAME_ROW;
 use super::efforts::Efforts;
 use super::report::{BlowUp, CourseRow, PeakEffort};
 use crate::limits::ModesFound;
 use crate::modes::ContactState;
 use crate::modes::existence::ModeInterval;
 use crate::report::Verdict;
+
+/// Rows nearer to a blow-up than this share of the range give way to it.
+pub(super) const SAME_ROW: f64 = 1e-9;
 
 /// Steps of the golden section search: the last bracket is within rounding of the first.
 const STEPS: usize = 75;

@@ -19,6 +19,7 @@ mod text;
 mod tipping;
 mod uncertainty;
 mod undetermined;
+mod wrap;
 
 pub(crate) use crate::units::number;
 pub use crate::units::precise;
@@ -26,7 +27,6 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::{Answered, indented};
-pub use page::wrapped;
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
@@ -36,6 +36,7 @@ pub(crate) use text::{count, ends_in_words, joints_in_words, spaced};
 pub use tipping::Tipping;
 pub(crate) use tipping::without_solution;
 pub use undetermined::{OpenRange, Undetermined};
+pub use wrap::wrapped;
 
 use crate::ids::{BodyId, ContactId, CoordinateId, DriveId};
 use crate::units::{Unit, Units};

@@ -1,6 +1,6 @@
 //! Aligned tables.
 
-use super::page::wrapped;
+use super::wrap::wrapped;
 
 /// Blanks between columns.
 const GAP: usize = 3;

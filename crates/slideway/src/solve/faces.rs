@@ -13,13 +13,14 @@
 //! and the ends of its range are two states.
 
 use super::answer::Answer;
-use super::mode_problem::{ProblemData, SAME_COLUMN};
+use super::mode_problem::ProblemData;
 use super::state::{State, pattern};
 use crate::ids::{ContactId, JointId};
 use crate::interval::Interval;
 use crate::kinetics::Reaction;
 use crate::mechanism::Contact;
 use crate::modes::{Certificate, ContactState};
+use crate::problem::SAME_COLUMN;
 use nalgebra::{DMatrix, DVector};
 
 /// Shares closer to 0 or 1 than this are at the face.

@@ -53,9 +53,7 @@ pub(crate) use blocks::{
 pub(crate) use friction::friction;
 pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_change};
-pub(crate) use mode_problem::{
-    NO_INFLUENCE, ProblemData, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
-};
+pub(crate) use mode_problem::{ProblemData, Sliding, sides, sliding_signs};
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
 pub(crate) use resting::sliding_or_resting;
@@ -69,7 +67,6 @@ pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
 pub(crate) use words::joint_mode_in_words;
 pub use words::mode_in_words;
-pub(crate) use words::sliding_in_words;
 
 use crate::configuration::Configuration;
 use crate::enclosure::{

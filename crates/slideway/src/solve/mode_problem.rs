@@ -10,11 +10,12 @@ use crate::ids::{ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
-use crate::model::SliderKind;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
-use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
+use crate::problem::{
+    NO_INFLUENCE, ProblemCoefficients, TurningHinge, friction_of_contacts, preload_columns, without_rounding,
+};
 use crate::progress::Progress;
 use crate::sharing::{shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
@@ -22,10 +23,6 @@ use std::ops::{ControlFlow, Range};
 
 /// Velocities of sliding and turning below this multiple of the greatest velocity count as zero.
 pub(super) const AT_REST: f64 = 1e-12;
-/// Versions of an influence column that differ by less than this multiple of it are the same.
-pub(crate) const SAME_COLUMN: f64 = 1e-12;
-/// Influence coefficients (force for force) below this are rounding: the friction has no influence there.
-pub(crate) const NO_INFLUENCE: f64 = 1e-13;
 
 /// The signs s_k of the sliding velocities; 0 is possible only where there is no friction.
 ///
@@ -272,32 +269,6 @@ pub(crate) fn self_stresses(influence: &Influence) -> DMatrix<f64> {
 /// friction, and wherever the moment of friction has no influence.
 pub(crate) fn sides(mechanism: &Mechanism, influence: &Influence) -> BySide<DMatrix<f64>> {
     without_rounding(mechanism, [0, 1].map(|side| influence.eta(side)))
-}
-
-/// The same of any rows: a column for each contact.
-pub(crate) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) -> BySide<DMatrix<f64>> {
-    let without_rounding = |eta: f64| if eta.abs() <= NO_INFLUENCE { 0.0 } else { eta };
-    let [positive, mut negative] = eta.map(|eta| eta.map(without_rounding));
-    for (k, contact) in mechanism.contacts.iter().enumerate() {
-        let guided = mechanism.slider(contact.joint).is_some_and(|slider| slider.kind == SliderKind::Guided);
-        let difference = (positive.column(k) - negative.column(k)).amax();
-        if guided || difference <= SAME_COLUMN * positive.column(k).amax() {
-            negative.set_column(k, &positive.column(k));
-        }
-    }
-    BySide { positive, negative }
-}
-
-/// The columns of the preload's friction: at the pressed face, or in the middle between both.
-pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
-    let mut preload = eta.clone();
-    for (k, contact) in mechanism.contacts.iter().enumerate() {
-        for row in 0..eta.positive.nrows() {
-            let faces = [eta.positive[(row, k)], eta.negative[(row, k)]];
-            [preload.positive[(row, k)], preload.negative[(row, k)]] = contact.preload_line.of_faces(faces);
-        }
-    }
-    preload
 }
 
 /// The fault of numbers beyond the range of floating point.

@@ -3,11 +3,9 @@
 //! Faces are named by where they lie as one looks at the drawing: lower and upper for a guide that is nearer
 //! to the horizontal, left and right for one that is nearer to the vertical.
 
-use crate::configuration::Configuration;
 use crate::ids::ContactId;
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::SliderKind;
-use crate::report::number::against;
 use nalgebra::Vector2;
 
 /// The contact mode of a sliding joint.
@@ -91,29 +89,6 @@ pub(crate) fn joint_mode_in_words(
             each.collect::<Vec<_>>().join(", ")
         }
     }
-}
-
-/// "drawer slides along (1, 0)", or "block slides along (0, -1) on arm": what it means that a joint slides in
-/// its positive direction (`sign` = 1) or against it (-1).
-///
-/// Where the block is ground, it is the guide that is said to slide.
-pub(crate) fn sliding_in_words(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    slider: &Slider,
-    sign: i8,
-) -> String {
-    let tangent = configuration.slide(mechanism, slider).tangent;
-    let name = |frame| mechanism.frame_name(frame);
-    let (moving, against_what, sense) = if slider.block.body().is_some() {
-        (name(slider.block), slider.guide, 1.0)
-    } else {
-        (name(slider.guide), slider.block, -1.0)
-    };
-    let direction = tangent * (sense * f64::from(sign));
-    let place =
-        if against_what.body().is_some() { format!(" on {}", name(against_what)) } else { String::new() };
-    format!("{moving} slides along ({}, {}){place}", against(direction.x, 1.0), against(direction.y, 1.0))
 }
 
 struct GuideInWords {

@@ -1,10 +1,10 @@
 //! The answer of `hold`, in sentences.
 
 use super::TOLERANCE;
+use super::ranges::{greatest, words};
 use super::report::{
     CoordinateRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release, Threshold, Wedging,
 };
-use super::text::{greatest, words};
 use crate::units::number::brief;
 
 /// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from

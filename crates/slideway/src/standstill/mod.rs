@@ -46,6 +46,7 @@
 
 mod answer;
 mod directions;
+mod ranges;
 mod reactions;
 mod release;
 mod report;

@@ -1,10 +1,11 @@
 //! The analysis of standstill as text for people.
 
 use super::answer::{self, wedges, without_inertia};
+use super::ranges::{greatest, is_one_value, words};
 use super::report::{HoldReport, HoldVerdict, LoadReport, Range, Reactions, Release, Threshold};
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{Report, Style, count, ends_in_words, followed, spaced};
+use crate::report::{Report, Style, count, followed, spaced};
 use crate::units::Unit;
 use anstyle::AnsiColor;
 use std::fmt::Write;
@@ -313,31 +314,7 @@ fn coefficients_in_words(threshold: &Threshold) -> Option<String> {
     Some(format!("mu_static{whose} = {coefficients}"))
 }
 
-/// Greatest finite magnitude among the ends.
-pub(super) fn greatest(ranges: &[Range]) -> f64 {
-    let ends = ranges.iter().flat_map(|range| [range.least, range.greatest]).flatten();
-    ends.map(f64::abs).fold(0.0, f64::max)
-}
-
-/// True if both ends are the same but for what the linear programs leave over.
-fn is_one_value(range: Range, scale: f64) -> bool {
-    range.least.zip(range.greatest).is_some_and(|(least, greatest)| greatest - least <= 1e-10 * scale)
-}
-
 /// "any", "-118 or less, or 47.2 or more"
 fn in_parts(parts: &[Range], scale: f64, unit: &Unit) -> String {
     parts.iter().map(|part| words(*part, scale, unit)).collect::<Vec<_>>().join(", or ")
-}
-
-/// "3", "1 to 3", "1 or more", "3 or less" or "any".
-pub(super) fn words(range: Range, scale: f64, unit: &Unit) -> String {
-    // What is left over by the linear programs is no range.
-    let noise = 1e3 * scale;
-    let number = |value: f64| unit.against(value, noise);
-    match (range.least, range.greatest) {
-        (Some(least), Some(greatest)) if number(least) == number(greatest) || is_one_value(range, scale) => {
-            number(f64::midpoint(least, greatest))
-        }
-        ends => ends_in_words([ends.0, ends.1].map(|end| end.map(number))),
-    }
 }

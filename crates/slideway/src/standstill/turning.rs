@@ -10,8 +10,8 @@ use crate::modes::blocks::{self, BlockProblem, BlockSolution};
 use crate::modes::{ContactState, InfluenceCoefficients, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
 use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
+use crate::problem::{preload_columns, without_rounding};
 use crate::progress::Callback;
-use crate::solve::{preload_columns, without_rounding};
 use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Normal forces below this part of the greatest force may be on either side.

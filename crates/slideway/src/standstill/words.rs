@@ -2,7 +2,7 @@
 
 use super::setup::{Setup, SlidingJoint};
 use crate::pattern::ContactPhase;
-use crate::solve::sliding_in_words;
+use crate::pattern::sliding_in_words;
 
 /// "sticks", "bracket slides along (0, -1)", "tips over base.rear", "lifts off"
 pub(super) fn release_in_words(

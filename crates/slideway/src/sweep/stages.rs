@@ -7,7 +7,8 @@ use crate::influence::Influence;
 use crate::kinetics::{Accuracy, Influences, Opening};
 use crate::mechanism::Mechanism;
 use crate::modes::screen::{MOST_CONTACTS, SmallProblem};
-use crate::solve::{Trail, mode_problem, preload_columns, sides, sliding_signs};
+use crate::problem::preload_columns;
+use crate::solve::{Trail, mode_problem, sides, sliding_signs};
 use nalgebra::{DMatrix, DVector};
 
 type Square = [[f64; MOST_CONTACTS]; MOST_CONTACTS];

@@ -7,7 +7,7 @@ use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::motion::moving::connected::join;
 use crate::pattern::{JointPhase, Phase};
-use crate::solve::{NO_INFLUENCE, SAME_COLUMN};
+use crate::problem::{NO_INFLUENCE, SAME_COLUMN};
 use nalgebra::{DMatrix, DVector, DVectorView};
 
 /// Sliding joints and hinges with friction that act on one another; friction elsewhere has no influence on them.

@@ -4,12 +4,11 @@ use super::super::answer::{Answer, Tipped, status};
 use super::super::attainability::not_computed;
 use super::super::state::{State, pattern, signs};
 use super::margins::Growth;
+use super::states::hinge_states;
 use crate::attainability::ElasticHinges;
 use crate::enclosure::NotEnclosed;
 use crate::ids::JointId;
-use crate::influence::HingeState;
 use crate::interval::{Interval, Real};
-use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState, Side};
 use crate::problem::TurningHinge;
@@ -173,20 +172,6 @@ pub(crate) fn directions(
         };
         if row == column { 1.0 - product } else { -product }
     })
-}
-
-/// The forces and friction couples of hinges.
-pub(super) fn hinge_states(
-    mechanism: &Mechanism,
-    hinges: &[TurningHinge],
-    forces: &[[f64; 2]],
-) -> Vec<HingeState> {
-    let one = |(hinge, force): (&TurningHinge, &[f64; 2])| {
-        let radius = mechanism.friction_circles[hinge.circle].radius;
-        let couple = -hinge.sense * radius * force[0].hypot(force[1]);
-        HingeState { circle: hinge.circle, joint: hinge.joint, force: *force, couple }
-    };
-    hinges.iter().zip(forces).map(one).collect()
 }
 
 /// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps, then of `|R_j|`.

@@ -129,9 +129,23 @@ impl Telling<'_> {
         let negative = pattern.iter().filter(|state| **state == ContactState::Negative).count();
         BlockState {
             normal_forces: forces.to_vec(),
-            hinges: super::found::hinge_states(self.mechanism, self.turning, reactions),
+            hinges: hinge_states(self.mechanism, self.turning, reactions),
             negative_determinant: oriented_negative ^ (negative % 2 == 1),
             pattern,
         }
     }
+}
+
+/// The forces and friction couples of hinges.
+pub(super) fn hinge_states(
+    mechanism: &Mechanism,
+    hinges: &[TurningHinge],
+    forces: &[[f64; 2]],
+) -> Vec<HingeState> {
+    let one = |(hinge, force): (&TurningHinge, &[f64; 2])| {
+        let radius = mechanism.friction_circles[hinge.circle].radius;
+        let couple = -hinge.sense * radius * force[0].hypot(force[1]);
+        HingeState { circle: hinge.circle, joint: hinge.joint, force: *force, couple }
+    };
+    hinges.iter().zip(forces).map(one).collect()
 }

@@ -1,6 +1,6 @@
 //! The forces of each mode, affine in the friction that is free, and where it satisfies all inequalities.
 
-use super::super::mode_problem::{NO_INFLUENCE, overflow};
+use super::super::mode_problem::overflow;
 use super::super::parts::couples;
 use super::super::stages::Stages;
 use super::circle::within_circle;
@@ -11,6 +11,7 @@ use crate::kinetics::ConstraintRow;
 use crate::law::COUPLE_TOLERANCE;
 use crate::modes::Side;
 use crate::modes::existence::OutputBound;
+use crate::problem::NO_INFLUENCE;
 use crate::problem::{BlockNumbers, TurningHinge};
 use nalgebra::{DMatrix, DVector};
 
