@@ -49,7 +49,7 @@ mod zero;
 pub(crate) use equations::{Slopes, load, matrix};
 pub use only::{OnlySolution, only_solution};
 pub use problem::BlockProblem;
-pub(crate) use problem::times;
+pub(crate) use problem::{rows_of_block, times};
 pub use result::{BlockResult, BlockSolution, OpenLabel, OpenRegion, UniqueForEveryLoad};
 pub use uniqueness::unique_for_every_load;
 
