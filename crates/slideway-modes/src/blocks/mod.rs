@@ -49,11 +49,11 @@ mod zero;
 pub(crate) use equations::{Slopes, load, matrix};
 pub use only::{OnlySolution, only_solution};
 pub use problem::BlockProblem;
-pub(crate) use problem::times;
+pub(crate) use problem::{rows_of_block, times};
 pub use result::{BlockResult, BlockSolution, OpenLabel, OpenRegion, UniqueForEveryLoad};
 pub use uniqueness::unique_for_every_load;
 
-use crate::progress::Callback;
+use crate::progress::{Callback, Progress};
 use crate::search::SearchOptions;
 use crate::status::Proof;
 use equations::Piece;
@@ -110,7 +110,13 @@ fn searched(
     progress: &mut Callback<'_>,
     manner: Manner,
 ) -> BlockResult {
-    searched_knowing(problem, unique_for_every_load(problem), options, progress, manner)
+    let unique = if goes_on(progress) { unique_for_every_load(problem) } else { None };
+    searched_knowing(problem, unique, options, progress, manner)
+}
+
+/// Whether the search may begin, or its first proof go on.
+fn goes_on(progress: &mut Callback<'_>) -> bool {
+    progress(&Progress { fraction: None, found: Some(0), ..Progress::of("nodes", 0, 1) }).is_continue()
 }
 
 fn searched_knowing(
@@ -165,7 +171,7 @@ fn found(
 ) -> Found {
     let known = match problem.blocks() {
         0 => Some(zero::Zero::of_nothing()),
-        _ if unique => zero::proven_everywhere(problem),
+        _ if unique => zero::proven_everywhere(problem, &mut || goes_on(progress)),
         _ => None,
     };
     if let Some(zero) = known {

@@ -1,5 +1,7 @@
 //! The block mode problem: exact, or within bounds.
 
+use std::ops::Range;
+
 use nalgebra::{DMatrix, DVector};
 
 use crate::interval_matrix::IntervalMatrix;
@@ -153,11 +155,8 @@ impl BlockProblem {
     }
 
     /// The rows of a block: one or two.
-    pub(crate) fn rows_of(&self, block: usize) -> std::ops::Range<usize> {
-        match block.checked_sub(self.contacts()) {
-            None => block..block + 1,
-            Some(hinge) => self.contacts() + 2 * hinge..self.contacts() + 2 * hinge + 2,
-        }
+    pub(crate) fn rows_of(&self, block: usize) -> Range<usize> {
+        rows_of_block(self.contacts(), block)
     }
 
     /// Both rows of a hinge.
@@ -197,6 +196,14 @@ impl BlockProblem {
     /// The jump vector in the load of a contact in a known state; of one in its gap, that of the negative side.
     pub(super) fn constant_jump(state: ContactState) -> Side {
         state.side().unwrap_or(Side::Negative)
+    }
+}
+
+/// The rows of a block behind so many contacts: one or two.
+pub(crate) fn rows_of_block(contacts: usize, block: usize) -> Range<usize> {
+    match block.checked_sub(contacts) {
+        None => block..block + 1,
+        Some(hinge) => contacts + 2 * hinge..contacts + 2 * hinge + 2,
     }
 }
 

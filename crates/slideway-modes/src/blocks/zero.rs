@@ -6,8 +6,8 @@ use super::equations::{Piece, Slopes, load, matrix, residual};
 use super::frames::{Ball, Frame, matrix_in_frames};
 use super::problem::BlockProblem;
 use super::sector::{Vector, unit};
-use crate::certificate::{Sign, enclose_solution};
-use crate::dense::solution;
+use crate::certificate::{Sign, enclose_solution_while};
+use crate::dense::{inverse, solution};
 use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::ContactState;
@@ -71,14 +71,15 @@ impl Zero {
     }
 }
 
-/// The only solution of a problem that has exactly one; `None` if it is not found, or not proven.
-pub(super) fn proven_everywhere(problem: &BlockProblem) -> Option<Zero> {
+/// The only solution of a problem that has exactly one; `None` if it is not found, or not proven, or once `proceed` is
+/// `false`.
+pub(super) fn proven_everywhere(problem: &BlockProblem, proceed: &mut dyn FnMut() -> bool) -> Option<Zero> {
     if problem.has_no_load() {
         return Some(Zero::at_rest(problem));
     }
     let everything = Piece::all(problem);
-    let point = newton(problem, &everything.states, start(problem, &everything)?)?;
-    prove(problem, &everything.states, &point)
+    let point = newton_while(problem, &everything.states, start(problem, &everything)?, proceed)?;
+    prove_while(problem, &everything.states, &point, proceed)
 }
 
 /// A zero of the equations by Newton's method from a point (theory of hinges, section 8, 2); `None` if it does not
@@ -88,10 +89,23 @@ pub(super) fn newton(
     states: &[Option<ContactState>],
     start: DVector<f64>,
 ) -> Option<DVector<f64>> {
+    newton_while(problem, states, start, &mut || true)
+}
+
+/// [`newton`]; `None`, too, once `proceed` is `false`, which is asked before each step.
+fn newton_while(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    start: DVector<f64>,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<DVector<f64>> {
     let load = load::<f64>(problem, states);
     let mut point = start;
     let mut last = f64::INFINITY;
     for _ in 0..STEPS {
+        if !proceed() {
+            return None;
+        }
         let next = solution(matrix(problem, states, &slopes_at(problem, &point)), &load)?;
         let step = (&next - &point).amax();
         let size = next.amax();
@@ -136,10 +150,20 @@ pub(super) fn prove(
     states: &[Option<ContactState>],
     point: &DVector<f64>,
 ) -> Option<Zero> {
+    prove_while(problem, states, point, &mut || true)
+}
+
+/// [`prove`]; `None`, too, once `proceed` is `false`.
+fn prove_while(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    point: &DVector<f64>,
+    proceed: &mut dyn FnMut() -> bool,
+) -> Option<Zero> {
     let residual = residual::<Interval>(problem, states, point);
     let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(point.len(), 1, |row, _| -residual[row]))?;
     // Bounds on the solutions of the linear equations for all values within the bounds: no smaller box proves anything.
-    let inverse = matrix(problem, states, &slopes_at(problem, point)).try_inverse()?;
+    let inverse = inverse(matrix(problem, states, &slopes_at(problem, point)), proceed)?;
     let sizes = sizes(problem, states, point);
     let least = (inverse.abs() * residual.map(Interval::magnitude)).component_div(&sizes).max();
     RADII.iter().filter(|radius| **radius > least).find_map(|radius| {
@@ -151,7 +175,7 @@ pub(super) fn prove(
         };
         let frames: Vec<Frame> = (0..problem.hinges()).map(of_hinge).collect();
         let matrix = matrix_in_frames(problem, states, &contact_slopes(problem, &isolation), &frames)?;
-        let steps = enclose_solution(&matrix, &right)?;
+        let steps = enclose_solution_while(&matrix, &right, proceed)?;
         let mut enclosure: Vec<Interval> = (0..point.len()).map(|row| steps.solution.entry(row, 0)).collect();
         for (hinge, frame) in frames.iter().enumerate() {
             let rows = problem.rows_of_hinge(hinge);

@@ -2,6 +2,7 @@
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
+use nalgebra::DMatrix;
 
 use crate::interval::Sign;
 use crate::problem::{ContactState, ModeProblem, ProblemView};
@@ -42,6 +43,15 @@ impl IntegerSystem {
             integers_of_row(&own.map(|at| std::mem::take(&mut all[at])).collect::<Vec<_>>()).0
         };
         Self { rows: rows.iter().map(row).collect(), unknowns: columns.len() }
+    }
+
+    /// The equations `A X = R`: the columns of `R` stand behind those of `A`.
+    pub(super) fn of_matrices(matrix: &DMatrix<f64>, right: &DMatrix<f64>) -> Self {
+        let row = |row: usize| {
+            let [left, right] = [matrix, right].map(|part| part.row(row));
+            integers_of_row(&left.iter().chain(&right).map(|&entry| vec![entry]).collect::<Vec<_>>()).0
+        };
+        Self { rows: (0..matrix.nrows()).map(row).collect(), unknowns: matrix.ncols() }
     }
 
     /// The columns of `A`, and `b`.

@@ -62,6 +62,13 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], most: usiz
     ExactOutcome::Singular(set)
 }
 
+/// Solves `A X = R` in rational arithmetic, for the numbers as given: the columns of `X`. Returns `None` if `A` is singular.
+pub(crate) fn solve_matrix_exactly(matrix: &DMatrix<f64>, right: &DMatrix<f64>) -> Option<Vec<Vec<RBig>>> {
+    let echelon = IntegerSystem::of_matrices(matrix, right).eliminate();
+    let columns = matrix.ncols()..matrix.ncols() + right.ncols();
+    echelon.is_regular().then(|| columns.map(|column| echelon.solve_reduced(column)).collect())
+}
+
 /// The exact unknowns of a solution of a pattern's equations that is known but for rounding, for one contact and those
 /// that act on it.
 ///

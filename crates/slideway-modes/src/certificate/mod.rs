@@ -43,7 +43,7 @@ pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
 pub(super) use elimination::mantissa_and_exponent;
 pub use enclosure::{LinearEnclosure, enclose_solution, enclose_solution_while, proven_determinant_sign};
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
-pub(super) use exact::{determinant_sign, enclose_sums};
+pub(super) use exact::{determinant_sign, enclose_sums, solve_matrix_exactly};
 pub use exchange::{has_one_solution, is_exchange};
 pub use exclusion::proves_empty;
 pub(super) use exclusion::proves_empty_while;

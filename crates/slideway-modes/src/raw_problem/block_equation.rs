@@ -1,10 +1,12 @@
 //! Absolute value equations of blocks, `A x + B |x| = b`.
 
+use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector};
 
 use super::block_units::{self, interval_times_power, times_power};
+use super::range::TOGETHER;
 use crate::blocks::BlockProblem;
-use crate::certificate::{IntervalMatrix, enclose_solution};
+use crate::certificate::{IntervalMatrix, enclose_solution, solve_matrix_exactly};
 use crate::interval::Interval;
 use crate::problem::{BySide, ModeProblemError, ProblemPart, Side};
 
@@ -35,7 +37,7 @@ impl BlockEquation {
     ///
     /// # Errors
     /// Shapes that do not match, entries that are not finite, sizes of blocks other than 1 and 2 or that do not add up
-    /// to `n`, and a matrix `A` that is not proven to be regular.
+    /// to `n`, and a matrix `A` that is not proven to be regular: one that is singular, or close to it with many rows.
     ///
     /// ```
     /// use nalgebra::{dmatrix, dvector};
@@ -60,21 +62,31 @@ impl BlockEquation {
         check(columns, &a, (size, size))?;
         check(columns, &b, (size, sizes.len()))?;
         check(ProblemPart::RightHandSide, &right, (size, 1))?;
-        let [response, load] = if a == identity {
-            [-&b, right].map(IntervalMatrix::exact)
-        } else {
-            let matrix = IntervalMatrix::exact(a.clone());
-            let solved = |right| enclose_solution(&matrix, &IntervalMatrix::exact(right));
-            let (response, load) = solved(-&b).zip(solved(right)).ok_or(ModeProblemError::NotRegular)?;
-            [response.solution, load.solution]
-        };
         let rows: Vec<usize> = order.iter().flat_map(|&(first, block)| first..first + sizes[block]).collect();
         let blocks: Vec<usize> = order.iter().map(|(_, block)| *block).collect();
-        let [response, load] = [selected(&response, &rows, &blocks), selected(&load, &rows, &[0])];
-        let contacts = sizes.iter().filter(|&&size| size == 1).count();
-        let no_jumps = IntervalMatrix::exact(DMatrix::zeros(size, contacts));
-        let given = BlockProblem::within_bounds(BySide::same(response), BySide::same(no_jumps), load)?;
-        let (units, problem) = block_units::in_own_units(given);
+        let sides = [(-&b).select_columns(&blocks), right];
+        let within_bounds = if a == identity {
+            Some(sides.clone().map(IntervalMatrix::exact))
+        } else {
+            let matrix = IntervalMatrix::exact(a.clone());
+            let solved =
+                |side: &DMatrix<f64>| enclose_solution(&matrix, &IntervalMatrix::exact(side.clone()));
+            let [response, load] = sides.each_ref().map(solved);
+            response.zip(load).map(|(response, load)| [response.solution, load.solution])
+        };
+        let (units, problem) = match within_bounds {
+            Some(found) => {
+                let [response, load] = found.each_ref().map(|matrix| with_rows(matrix, &rows));
+                let no_jumps =
+                    BySide::same(IntervalMatrix::exact(DMatrix::zeros(size, 2 * blocks.len() - size)));
+                block_units::in_own_units(BlockProblem::within_bounds(
+                    BySide::same(response),
+                    no_jumps,
+                    load,
+                )?)
+            }
+            None => solved_exactly(&a, &sides, &rows).ok_or(ModeProblemError::NotRegular)?,
+        };
         Ok(Self { a, b, right_hand_side, order, units, problem })
     }
 
@@ -156,9 +168,25 @@ fn order(sizes: &[usize], components: usize) -> Result<Vec<(usize, usize)>, Mode
     Ok(order)
 }
 
-/// These rows and columns.
-fn selected(matrix: &IntervalMatrix, rows: &[usize], columns: &[usize]) -> IntervalMatrix {
-    let of = |part: &DMatrix<f64>| part.select_rows(rows).select_columns(columns);
+/// The units of the blocks and the problem in these, from exact numbers: these rows of `A^-1` times these columns. `None` if
+/// `A` is singular, too large for that, or numbers overflow.
+fn solved_exactly(
+    a: &DMatrix<f64>,
+    sides: &[DMatrix<f64>; 2],
+    rows: &[usize],
+) -> Option<(Vec<i32>, BlockProblem)> {
+    if a.nrows() > TOGETHER {
+        return None;
+    }
+    let in_order = |column: Vec<RBig>| rows.iter().map(|&row| column[row].clone()).collect();
+    let solved = sides.iter().map(|side| solve_matrix_exactly(a, side)).collect::<Option<Vec<_>>>()?;
+    let columns: Vec<Vec<RBig>> = solved.into_iter().flatten().map(in_order).collect();
+    block_units::exactly_in_own_units(&columns)
+}
+
+/// These rows.
+fn with_rows(matrix: &IntervalMatrix, rows: &[usize]) -> IntervalMatrix {
+    let of = |part: &DMatrix<f64>| part.select_rows(rows);
     IntervalMatrix::around(of(matrix.centre()), of(matrix.radius()))
         .expect("parts of an interval matrix are one")
 }

@@ -4,9 +4,12 @@
 //! `b_i 2^(-s_i)`. The largest numbers in the row of a block, other than its own, are made as large as those in its column
 //! (Osborne, Journal of the ACM 7 (1960)); the load is part of the rows.
 
+use dashu_int::UBig;
+use dashu_int::ops::BitTest;
+use dashu_ratio::RBig;
 use nalgebra::DMatrix;
 
-use crate::blocks::BlockProblem;
+use crate::blocks::{BlockProblem, rows_of_block};
 use crate::interval::Interval;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{BySide, Side};
@@ -18,7 +21,7 @@ const LARGEST_POWER: i32 = 1000;
 
 /// The units of all blocks, and the problem in these units; as it is if numbers overflow in them.
 pub(super) fn in_own_units(problem: BlockProblem) -> (Vec<i32>, BlockProblem) {
-    let units = units(&problem);
+    let units = units_of(&problem);
     let rows_of = |(block, &unit): (usize, &i32)| problem.rows_of(block).map(move |_| unit);
     let of_rows: Vec<i32> = units.iter().enumerate().flat_map(rows_of).collect();
     let scaled = |part: &IntervalMatrix, units: &[i32]| {
@@ -39,9 +42,32 @@ pub(super) fn in_own_units(problem: BlockProblem) -> (Vec<i32>, BlockProblem) {
     }
 }
 
-/// Exponents of the units of all blocks.
-fn units(problem: &BlockProblem) -> Vec<i32> {
-    let blocks = problem.blocks();
+/// The units of all blocks, and the problem in these units, from exact numbers of any size: the columns of the blocks and
+/// that of the load, whose rows are those of [`BlockProblem`]. `None` if numbers overflow in these units, too.
+pub(super) fn exactly_in_own_units(columns: &[Vec<RBig>]) -> Option<(Vec<i32>, BlockProblem)> {
+    let (blocks, rows) = (columns.len() - 1, columns[0].len());
+    let contacts = 2 * blocks - rows;
+    let rows_of = |block: usize| rows_of_block(contacts, block);
+    let size = |block: usize, column: usize| {
+        rows_of(block).map(|row| exponent(&columns[column][row])).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let units = units(blocks, size);
+    let of_rows: Vec<i32> =
+        units.iter().enumerate().flat_map(|(block, &unit)| rows_of(block).map(move |_| unit)).collect();
+    let scaled = |columns: &[Vec<RBig>], units: &[i32]| {
+        IntervalMatrix::from_intervals(&DMatrix::from_fn(rows, columns.len(), |row, column| {
+            Interval::around_ratio(&ratio_times_power(&columns[column][row], units[column] - of_rows[row]))
+        }))
+    };
+    let (response, load) = columns.split_at(blocks);
+    let no_jumps = BySide::same(IntervalMatrix::exact(DMatrix::zeros(rows, contacts)));
+    let response = BySide::same(scaled(response, &units)?);
+    let problem = BlockProblem::within_bounds(response, no_jumps, scaled(load, &[0])?).ok()?;
+    Some((units, problem))
+}
+
+/// Exponents of the units of all blocks of a problem.
+fn units_of(problem: &BlockProblem) -> Vec<i32> {
     // A number that may be zero, within its error, has no size.
     let size = |part: &IntervalMatrix, block: usize, column: usize| {
         let entry = |row: usize| (part.centre()[(row, column)].abs(), part.radius()[(row, column)]);
@@ -49,14 +75,26 @@ fn units(problem: &BlockProblem) -> Vec<i32> {
         let sizes = problem.rows_of(block).map(entry).filter(certain).map(|(centre, _)| centre);
         sizes.fold(0.0, f64::max).log2()
     };
-    let response = problem.response(Side::Positive);
-    let sizes = DMatrix::from_fn(blocks, blocks, |block, column| size(response, block, column));
+    let blocks = problem.blocks();
+    units(blocks, |block, column| {
+        if column < blocks {
+            size(problem.response(Side::Positive), block, column)
+        } else {
+            size(problem.load(), block, 0)
+        }
+    })
+}
+
+/// Exponents of the units of so many blocks, from the exponent of the largest number in the rows of a block, of each
+/// column: those of the blocks, and that of the load.
+fn units(blocks: usize, size: impl Fn(usize, usize) -> f64) -> Vec<i32> {
+    let sizes = DMatrix::from_fn(blocks, blocks + 1, size);
     let mut units = vec![0.0_f64; blocks];
     for _ in 0..SWEEPS {
         for block in 0..blocks {
             let others = (0..blocks).filter(|&other| other != block);
             let in_row = others.clone().map(|other| sizes[(block, other)] + units[other]);
-            let row = in_row.fold(size(problem.load(), block, 0), f64::max);
+            let row = in_row.fold(sizes[(block, blocks)], f64::max);
             let column =
                 others.map(|other| sizes[(other, block)] - units[other]).fold(f64::NEG_INFINITY, f64::max);
             units[block] = match (row.is_finite(), column.is_finite()) {
@@ -70,6 +108,22 @@ fn units(problem: &BlockProblem) -> Vec<i32> {
     #[expect(clippy::cast_possible_truncation, reason = "sums of some exponents of floating-point numbers")]
     let exponents = units.into_iter().map(|unit| unit.round() as i32);
     exponents.collect()
+}
+
+/// The exponent of a number within one; of zero, that of nothing.
+fn exponent(value: &RBig) -> f64 {
+    let bits = |length: usize| length as f64;
+    if value.is_zero() {
+        f64::NEG_INFINITY
+    } else {
+        bits(value.numerator().bit_len()) - bits(value.denominator().bit_len())
+    }
+}
+
+/// Returns `value 2^exponent`.
+fn ratio_times_power(value: &RBig, exponent: i32) -> RBig {
+    let power = RBig::from(UBig::ONE << exponent.unsigned_abs() as usize);
+    if exponent < 0 { value / power } else { value * power }
 }
 
 /// `value 2^exponent`, rounded only if the result is subnormal or overflows.
@@ -128,7 +182,7 @@ mod tests {
         let response = BySide::same(rounded.expect("finite"));
         let load = IntervalMatrix::exact(dmatrix![0.5; -1.0]);
         let problem = BlockProblem::within_bounds(response, none, load).expect("finite");
-        assert_eq!(units(&problem), [-1, 0]);
+        assert_eq!(units_of(&problem), [-1, 0]);
     }
 
     #[test]

@@ -10,8 +10,8 @@ use crate::certificate::{enclose_sums, solve_part_exactly};
 use crate::interval::Interval;
 use crate::problem::{ContactState, ModeProblem};
 
-/// The maximum number of unknowns that are solved together for an exact value.
-const TOGETHER: usize = 48;
+/// The maximum number of unknowns that are solved together for exact values.
+pub(super) const TOGETHER: usize = 48;
 /// Number of digits of a value reported as text: enough to distinguish floating-point numbers.
 const DIGITS: u8 = 17;
 

@@ -132,6 +132,21 @@ impl Factors {
     }
 }
 
+impl Factors {
+    /// [`Self::solve`] without scales, improved once by what the matrix itself leaves of the right-hand sides.
+    pub(super) fn solve_closely(&self, matrix: &DMatrix<f64>, sides: &[f64], count: usize) -> Vec<f64> {
+        let scales = vec![1.0; self.rows.len()];
+        let mut solution = self.solve(sides, &scales, count);
+        let mut left = sides.to_vec();
+        for (column, known) in matrix.column_iter().zip(solution.chunks_exact(count.max(1))) {
+            subtract_rows(column.as_slice(), known, &mut left);
+        }
+        let correction = self.solve(&left, &scales, count);
+        solution.iter_mut().zip(correction).for_each(|(value, correction)| *value += correction);
+        solution
+    }
+}
+
 /// The greatest entry of a column from some row on, the first of several. It is sought anew only where the column or this
 /// row has changed: in a chain of bodies a step of the elimination changes few columns.
 #[derive(Debug, Clone, Copy)]

@@ -8,7 +8,8 @@
 //! `joint_equations.rs` has the equations and `curvature.rs` how they bend, `anchor.rs` proves how far the
 //! branch of a state can be followed in one step, `following.rs` goes from place to place, `follower.rs`
 //! finds one state after another and remembers what the last step has shown, `assembly.rs` closes the drawing
-//! and says why a state cannot be had, `mobility.rs` counts freedoms, `standing.rs` finds what the drives keep at rest.
+//! and says why a state cannot be had, `mobility.rs` counts freedoms,
+//! `motions.rs` has what moves with each coordinate, `standing.rs` finds what the drives keep at rest.
 
 mod anchor;
 mod assembly;
@@ -20,6 +21,7 @@ mod following;
 mod joint_equations;
 mod leg;
 mod mobility;
+mod motions;
 mod standing;
 
 pub(crate) use assembly::widest_gap_of_drawing;

@@ -65,10 +65,10 @@ impl Prescribed {
         let size = mechanism.size;
         let of_body =
             |velocity: &Velocity| [velocity.linear.x / size, velocity.linear.y / size, velocity.angular];
-        let velocities = DVector::from_iterator(
-            3 * mechanism.bodies.len(),
-            configuration.velocities.iter().flat_map(of_body),
-        );
+        let motion = |state: &Configuration| {
+            DVector::from_iterator(3 * mechanism.bodies.len(), state.velocities.iter().flat_map(of_body))
+        };
+        let velocities = motion(configuration);
         let joints = equations.jacobian.nrows() - mechanism.coordinates.len();
         let unit = |coordinate: usize| {
             let kind = mechanism.coordinates[coordinate].kind;
@@ -80,13 +80,10 @@ impl Prescribed {
             let acceleration = configuration.quantity(mechanism, drive.acceleration)?;
             wanted[joints + coordinate] += acceleration * unit(coordinate);
         }
-        let unit_vector =
-            |row: usize| DVector::from_fn(wanted.len(), |other, _| f64::from(u8::from(other == row)));
-        let factors = Factors::of(&equations.jacobian);
-        let free = (0..mechanism.coordinates.len()).filter(|&coordinate| mechanism.is_free(coordinate));
-        let free: Option<Vec<_>> =
-            free.map(|coordinate| factors.solution(&unit_vector(joints + coordinate))).collect();
-        let accelerations = factors.solution(&wanted);
-        Ok(accelerations.zip(free).map(|(accelerations, free)| Self { velocities, accelerations, free }))
+        let alone = configuration.with_each_rate(mechanism);
+        let free = alone.iter().enumerate().filter(|(coordinate, _)| mechanism.is_free(*coordinate));
+        let free = free.map(|(_, state)| motion(state)).collect();
+        let accelerations = Factors::of(&equations.jacobian).solution(&wanted);
+        Ok(accelerations.map(|accelerations| Self { velocities, accelerations, free }))
     }
 }

@@ -58,11 +58,10 @@ impl Sliding {
         let stays = |id: &ContactId| staying.contains(&mechanism.contacts[id.index()].joint);
         let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.iter().partition(|id| stays(id));
         let Some(first) = undefined.first() else { return Ok(Self { signs, standing }) };
-        let first_slides = |mechanism: &Mechanism, state: &Configuration| {
-            vec![sliding_signs(mechanism, state)[first.index()] != 0.0]
-        };
-        let why = why(mechanism, configuration, (1, &first_slides)).pop().unwrap_or(NoSliding::Here);
-        Err(does_not_slide(mechanism, &undefined, why))
+        let first_slides =
+            |state: &Configuration| vec![sliding_signs(mechanism, state)[first.index()] != 0.0];
+        let why = why(mechanism, configuration, (1, &first_slides)).pop();
+        Err(does_not_slide(mechanism, &undefined, why.map_or(NoSliding::Here, |why| why.reason)))
     }
 }
 

@@ -5,7 +5,15 @@ use crate::fault::NoSliding;
 use crate::mechanism::Mechanism;
 
 /// Which of the things that are asked about slide or turn in a state.
-pub(super) type Moves<'m> = &'m dyn Fn(&Mechanism, &Configuration) -> Vec<bool>;
+pub(super) type Moves<'m> = &'m dyn Fn(&Configuration) -> Vec<bool>;
+
+/// Why something does not move.
+#[derive(Clone)]
+pub(super) struct Why {
+    pub(super) reason: NoSliding,
+    /// The coordinates with which alone it moves.
+    pub(super) moves_with: Vec<usize>,
+}
 
 /// Why each of the things that `moves` tells of does not move in a configuration: the mechanism rests, or it moves without
 /// it, as it always does or in this position alone.
@@ -16,66 +24,56 @@ pub(super) fn why(
     mechanism: &Mechanism,
     configuration: &Configuration,
     (count, moves): (usize, Moves<'_>),
-) -> Vec<NoSliding> {
-    let names = |indices: &[usize]| -> Vec<String> {
-        indices.iter().map(|&index| mechanism.coordinates[index].name.to_string()).collect()
-    };
-    let all: Vec<usize> = (0..mechanism.coordinates.len()).collect();
+) -> Vec<Why> {
     if configuration.rates.iter().all(|rate| *rate == 0.0) {
-        return vec![NoSliding::AtRest(names(&all)); count];
+        let names = mechanism.coordinates.iter().map(|coordinate| coordinate.name.to_string()).collect();
+        return vec![Why { reason: NoSliding::AtRest(names), moves_with: Vec::new() }; count];
     }
-    let mut probe = Probe { mechanism: mechanism.clone(), follower: Follower::default(), moves };
-    let mut slides_with = vec![Vec::new(); count];
-    for &coordinate in &all {
-        let moving = slides_with.iter_mut().zip(probe.moving(coordinate));
+    let mut moves_with = vec![Vec::new(); count];
+    for (coordinate, state) in configuration.with_each_rate(mechanism).iter().enumerate() {
+        let moving = moves_with.iter_mut().zip(moves(state));
         moving.filter(|(_, moves)| *moves).for_each(|(with, _)| with.push(coordinate));
     }
-    let reason = |with: &Vec<usize>| match &with[..] {
+    let reason =
+        |moves_with: Vec<usize>| Why { reason: reason(mechanism, configuration, &moves_with), moves_with };
+    let mut all: Vec<Why> = moves_with.into_iter().map(reason).collect();
+    if all.iter().any(|why| why.reason == NoSliding::Never) {
+        look_nearby(mechanism, &mut all, moves);
+    }
+    all
+}
+
+/// Why something does not move in a configuration with rates that moves with these coordinates alone.
+fn reason(mechanism: &Mechanism, configuration: &Configuration, moves_with: &[usize]) -> NoSliding {
+    match moves_with {
         [] => NoSliding::Never,
         with if with.iter().any(|&coordinate| configuration.rates[coordinate] != 0.0) => NoSliding::Here,
-        with => NoSliding::WithoutRate(names(with)),
-    };
-    let mut reasons: Vec<NoSliding> = slides_with.iter().map(reason).collect();
-    for &moved in &all {
+        with => {
+            let name = |&coordinate: &usize| mechanism.coordinates[coordinate].name.to_string();
+            NoSliding::WithoutRate(with.iter().map(name).collect())
+        }
+    }
+}
+
+/// Notes of what seems never to move that it does where a coordinate is a little further.
+fn look_nearby(mechanism: &Mechanism, all: &mut [Why], moves: Moves<'_>) {
+    let (mut moved, mut follower) = (mechanism.clone(), Follower::default());
+    for (index, coordinate) in mechanism.coordinates.iter().enumerate() {
+        let length = if coordinate.kind.is_angle() { 1.0 } else { mechanism.size };
         for step in [PROBE, -PROBE] {
-            probe.nearby(moved, step, &mut reasons);
-        }
-    }
-    reasons
-}
-
-/// A mechanism that is moved to see what slides.
-struct Probe<'m> {
-    mechanism: Mechanism,
-    follower: Follower,
-    moves: Moves<'m>,
-}
-
-impl Probe<'_> {
-    /// What slides or turns if this coordinate alone has a rate; nothing where there is no such state.
-    fn moving(&mut self, coordinate: usize) -> Vec<bool> {
-        for (index, other) in self.mechanism.coordinates.iter_mut().enumerate() {
-            other.rate = if index == coordinate { 1.0 } else { 0.0 };
-        }
-        let state = self.follower.configuration(&self.mechanism);
-        state.map_or_else(|_| Vec::new(), |state| (self.moves)(&self.mechanism, &state))
-    }
-
-    /// Notes what seems never to move, but does where this coordinate is a little further.
-    fn nearby(&mut self, moved: usize, step: f64, reasons: &mut [NoSliding]) {
-        let here = self.mechanism.coordinates[moved].value;
-        let length =
-            if self.mechanism.coordinates[moved].kind.is_angle() { 1.0 } else { self.mechanism.size };
-        self.mechanism.coordinates[moved].value = here + step * length;
-        for coordinate in 0..self.mechanism.coordinates.len() {
-            if !reasons.contains(&NoSliding::Never) {
-                break;
+            moved.coordinates[index].value = coordinate.value + step * length;
+            let Ok(nearby) = follower.configuration(&moved) else { continue };
+            for state in nearby.with_each_rate(mechanism) {
+                let still = all
+                    .iter_mut()
+                    .zip(moves(&state))
+                    .filter(|(why, moves)| *moves && why.reason == NoSliding::Never);
+                still.for_each(|(why, _)| why.reason = NoSliding::Here);
             }
-            let moving = reasons.iter_mut().zip(self.moving(coordinate));
-            moving
-                .filter(|(reason, moves)| *moves && **reason == NoSliding::Never)
-                .for_each(|(reason, _)| *reason = NoSliding::Here);
+            if all.iter().all(|why| why.reason != NoSliding::Never) {
+                return;
+            }
         }
-        self.mechanism.coordinates[moved].value = here;
+        moved.coordinates[index].value = coordinate.value;
     }
 }

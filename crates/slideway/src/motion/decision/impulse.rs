@@ -156,7 +156,7 @@ impl<'s> Impulses<'s> {
             let mut phase = any.clone();
             members.iter().zip(does).for_each(|(number, does)| phase.set(*number, does));
             if group.turns(&phase) {
-                let turning = Turning::new(instant, question, (&phase, group));
+                let turning = Turning::new(instant, question, (&phase, group), self.work);
                 let (phases, decided) =
                     turning.map_or((Vec::new(), false), |turning| turning.phases(self.work));
                 *undecided += usize::from(!decided);

@@ -228,7 +228,7 @@ impl PhaseSearch<'_> {
         undecided: &RefCell<Vec<Phase>>,
     ) -> Box<dyn Iterator<Item = Phase> + 'p> {
         if group.turns(&phase) {
-            let turning = Turning::new(self.instant, self.question, (&phase, group));
+            let turning = Turning::new(self.instant, self.question, (&phase, group), self.event.work);
             let (phases, decided) =
                 turning.map_or((Vec::new(), false), |turning| turning.phases(self.event.work));
             undecided.borrow_mut().extend((!decided).then_some(phase));
@@ -250,8 +250,10 @@ impl PhaseSearch<'_> {
             }
             _ => None,
         };
+        // With hundreds of members each of these questions takes a while.
+        let is_over = || self.event.work.is_over();
         let moves = |number: usize| {
-            phase.of(number) != JointPhase::Sticking && self.instant.is_movable(number, &held)
+            phase.of(number) != JointPhase::Sticking && (is_over() || self.instant.is_movable(number, &held))
         };
         let later = !group.hinges.is_empty() && self.members(group).any(moves);
         let slipping: Vec<(usize, f64)> = self.members(group).filter_map(begins).collect();
@@ -259,7 +261,7 @@ impl PhaseSearch<'_> {
             .iter()
             .enumerate()
             .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
-        (later || !slipping.iter().any(|(number, _)| self.instant.is_held(*number, &held)))
+        (later || !slipping.iter().any(|(number, _)| is_over() || self.instant.is_held(*number, &held)))
             && pairs.all(|pair| self.instant.can_begin_together(pair))
     }
 
@@ -311,7 +313,7 @@ impl PhaseSearch<'_> {
     /// The verdict on what a group does while all others are locked.
     fn verdict(&self, group: &Group, phase: &Phase) -> Verdict {
         if !group.hinges.is_empty() {
-            let turning = Turning::new(self.instant, self.question, (phase, group));
+            let turning = Turning::new(self.instant, self.question, (phase, group), self.event.work);
             let is_unattainable = turning.is_some_and(|turning| turning.is_unattainable());
             return if is_unattainable { Verdict::Unattainable } else { Verdict::NotComputed };
         }

@@ -34,11 +34,13 @@ pub(super) struct Turning<'t> {
 }
 
 impl<'t> Turning<'t> {
-    /// The problem of a group with the joints and hinges of a phase; `None` if what holds the ones that stick is singular.
+    /// The problem of a group with the joints and hinges of a phase; `None` if what holds the ones that stick is singular, or
+    /// the work is to end.
     pub(super) fn new(
         instant: &'t Instant<'t>,
         question: &'t Question<'t>,
         (phase, group): (&'t Phase, &Group),
+        work: Work<'_>,
     ) -> Option<Self> {
         let sign = |k: usize| instant.joint_of(k).map_or(0.0, |joint| phase.joints[joint].sign());
         let moving = |(_, sign): &(usize, f64)| *sign != 0.0;
@@ -49,7 +51,7 @@ impl<'t> Turning<'t> {
         let of_hinge = |&(hinge, _): &(usize, f64)| [1, 2].map(|part| instant.turning_output(hinge) + part);
         let rows: Vec<usize> =
             contacts.iter().map(|(k, _)| *k).chain(hinges.iter().flat_map(of_hinge)).collect();
-        let held = Held::new(instant, question, (phase, group))?;
+        let held = Held::new(instant, question, (phase, group), work)?;
         let outputs = question.outputs;
         let answers = |columns: Vec<DVector<f64>>| {
             let answers: Vec<DVector<f64>> =
@@ -166,7 +168,12 @@ struct Held {
 }
 
 impl Held {
-    fn new(instant: &Instant<'_>, question: &Question<'_>, (phase, group): (&Phase, &Group)) -> Option<Self> {
+    fn new(
+        instant: &Instant<'_>,
+        question: &Question<'_>,
+        (phase, group): (&Phase, &Group),
+        work: Work<'_>,
+    ) -> Option<Self> {
         let sticks = |number: &usize| match number.checked_sub(instant.joints.len()) {
             None => phase.joints[*number] == JointPhase::Sticking,
             Some(hinge) => phase.hinges[hinge].state == JointPhase::Sticking,
@@ -176,6 +183,9 @@ impl Held {
         let sticking = members().filter(|number| sticks(number) && !question.pushed.contains(number));
         let mut held: Vec<usize> = Vec::new();
         for number in pushed.chain(sticking) {
+            if work.is_over() {
+                return None;
+            }
             if instant.is_movable(number, &held) {
                 held.push(number);
             }

@@ -1,14 +1,13 @@
 //! In which sense the hinges with friction turn.
 
 use super::super::mode_problem::AT_REST;
-use super::super::no_sliding::why;
-use crate::configuration::{Configuration, NO_ACCELERATION, free_motions};
+use super::super::no_sliding::{Why, why};
+use crate::configuration::{Configuration, NO_ACCELERATION};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
 use crate::problem::TurningHinge;
-use nalgebra::DMatrix;
 
 /// The hinges with friction.
 pub(super) struct Spins {
@@ -64,14 +63,12 @@ pub(crate) fn never_turning(mechanism: &Mechanism, configuration: &Configuration
     let mut faults = Faults::default();
     let mut moving = configuration.clone();
     moving.rates.fill(1.0);
+    let turning = turning(mechanism, configuration);
     let joints = mechanism.friction_circles.iter().map(|circle| circle.joint);
-    let mut still: Vec<JointId> =
-        joints.filter(|joint| turns(mechanism, configuration, *joint) == 0.0).collect();
-    let free = FreeTurns::of(mechanism, configuration, &still);
-    still.retain(|joint| !free.turn(mechanism, *joint));
-    for (&joint, why) in still.iter().zip(why_still(mechanism, &moving, &still)) {
-        if why == NoSliding::Never {
-            faults.push(does_not_turn(mechanism, joint, why));
+    let still: Vec<JointId> = joints.filter(|joint| turning(*joint) == 0.0).collect();
+    for (&joint, Why { reason, .. }) in still.iter().zip(why_still(mechanism, &moving, &still)) {
+        if reason == NoSliding::Never {
+            faults.push(does_not_turn(mechanism, joint, reason));
         }
     }
     faults.or(())
@@ -88,15 +85,14 @@ pub(super) fn senses(
     influence: &Influence,
     joints: Vec<JointId>,
 ) -> Vec<(JointId, Result<f64, NoSliding>)> {
-    let now: Vec<f64> = joints.iter().map(|joint| turns(mechanism, configuration, *joint)).collect();
+    let now: Vec<f64> = joints.iter().copied().map(turning(mechanism, configuration)).collect();
     let still: Vec<JointId> =
         joints.iter().zip(&now).filter(|(_, now)| **now == 0.0).map(|(joint, _)| *joint).collect();
-    let free = FreeTurns::of(mechanism, configuration, &still);
     let mut reasons = why_still(mechanism, configuration, &still).into_iter();
     let sense = |(joint, now): (JointId, f64)| {
-        let begins = |why: NoSliding| match why {
-            NoSliding::Here if !free.turn(mechanism, joint) => begins(mechanism, influence, joint).ok_or(why),
-            why => Err(why),
+        let begins = |Why { reason, moves_with }: Why| match reason {
+            NoSliding::Here if moves_with.is_empty() => begins(mechanism, influence, joint).ok_or(reason),
+            reason => Err(reason),
         };
         (joint, if now == 0.0 { reasons.next().map_or(Ok(now), begins) } else { Ok(now) })
     };
@@ -104,11 +100,11 @@ pub(super) fn senses(
 }
 
 /// Why each of these hinges does not turn.
-fn why_still(mechanism: &Mechanism, configuration: &Configuration, still: &[JointId]) -> Vec<NoSliding> {
-    let turning = |mechanism: &Mechanism, state: &Configuration| {
-        still.iter().map(|joint| turns(mechanism, state, *joint) != 0.0).collect()
+fn why_still(mechanism: &Mechanism, configuration: &Configuration, still: &[JointId]) -> Vec<Why> {
+    let turn = |state: &Configuration| {
+        still.iter().copied().map(turning(mechanism, state)).map(|sense| sense != 0.0).collect()
     };
-    if still.is_empty() { Vec::new() } else { why(mechanism, configuration, (still.len(), &turning)) }
+    if still.is_empty() { Vec::new() } else { why(mechanism, configuration, (still.len(), &turn)) }
 }
 
 /// The sense in which a hinge that does not turn begins to, by the joint equations alone.
@@ -124,34 +120,13 @@ fn begins(mechanism: &Mechanism, influence: &Influence, joint: JointId) -> Optio
     (acceleration.abs() > NO_ACCELERATION * greatest).then(|| acceleration.signum())
 }
 
-/// The sense in which a hinge turns: 1, -1, or 0 where it does not within rounding.
-fn turns(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) -> f64 {
-    let spin = configuration.spin(mechanism, joint);
+/// Says of hinges in which sense each turns: 1, -1, or 0 where it does not within rounding.
+fn turning(mechanism: &Mechanism, configuration: &Configuration) -> impl Fn(JointId) -> f64 {
     let speeds =
         configuration.velocities.iter().map(|v| v.angular.abs().max(v.linear.norm() / mechanism.size));
     let greatest = speeds.fold(0.0, f64::max);
-    if spin.abs() <= AT_REST * greatest { 0.0 } else { spin.signum() }
-}
-
-/// The free motions of a position, which may turn hinges.
-struct FreeTurns(DMatrix<f64>);
-
-impl FreeTurns {
-    /// Those that matter for these hinges.
-    fn of(mechanism: &Mechanism, configuration: &Configuration, still: &[JointId]) -> Self {
-        Self(if still.is_empty() { DMatrix::zeros(0, 0) } else { free_motions(mechanism, configuration) })
-    }
-
-    /// Returns whether some of them turns this hinge.
-    fn turn(&self, mechanism: &Mechanism, joint: JointId) -> bool {
-        let JointKind::Hinge(ends) = &mechanism.joints[joint.index()].kind else { return false };
-        let Self(motions) = self;
-        let rotation = |frame: Frame, motion: usize| {
-            frame.body().map_or(0.0, |body| motions[(3 * body.index() + 2, motion)])
-        };
-        (0..motions.ncols()).any(|motion| {
-            let [first, second] = ends.each_ref().map(|end| rotation(end.frame, motion));
-            (first - second).abs() > NO_ACCELERATION * motions.column(motion).amax()
-        })
+    move |joint| {
+        let spin = configuration.spin(mechanism, joint);
+        if spin.abs() <= AT_REST * greatest { 0.0 } else { spin.signum() }
     }
 }
