@@ -40,26 +40,29 @@ impl SolveReport {
         }
     }
 
-    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
-    fn start_in_words(&self) -> Option<String> {
-        let starts = |solution: &Solution| {
+    /// What the joints do that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint is at
+    /// rest.
+    pub(crate) fn starts(&self) -> Option<Vec<String>> {
+        let start = |solution: &Solution| {
             let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
             joints.map(|joint| format!("{}: {}", joint.name, joint.mode)).collect::<Vec<_>>().join("; ")
         };
-        if self.at_rest.is_empty() {
-            return None;
-        }
+        (!self.at_rest.is_empty()).then(|| self.solutions.iter().map(start).collect())
+    }
+
+    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
+    fn start_in_words(&self) -> Option<String> {
+        let starts = self.starts()?;
         let unique = if self.every_load_has_one_state == Some(true) {
             " Every load has exactly one state."
         } else {
             ""
         };
-        Some(match (self.status, self.solutions.as_slice()) {
+        Some(match (self.status, starts.as_slice()) {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
-            (Status::One, [only]) => format!("It starts in one way. {}.{unique}", starts(only)),
+            (Status::One, [only]) => format!("It starts in one way. {only}.{unique}"),
             (Status::Several, several) => {
-                let ways: Vec<String> = several.iter().map(starts).collect();
-                format!("It can start in {} ways. {}.", several.len(), ways.join(". Or "))
+                format!("It can start in {} ways. {}.", several.len(), several.join(". Or "))
             }
             _ => {
                 let also = match self.solutions.len() {

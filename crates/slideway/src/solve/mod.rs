@@ -58,7 +58,6 @@ pub(crate) use mode_problem::{
 };
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
-pub(crate) use resting::sliding_or_resting;
 pub(crate) use sharing::load_sharing;
 pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
@@ -69,7 +68,7 @@ pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;
 pub(crate) use words::joint_mode_in_words;
 pub use words::mode_in_words;
-pub(crate) use words::sliding_in_words;
+pub(crate) use words::{sliding_in_words, sticking_in_words};
 
 use crate::configuration::Configuration;
 use crate::enclosure::{
@@ -153,12 +152,6 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
-    if let Some(mut report) = resting::of_mechanism(&mechanism, &configuration)? {
-        report.open.extend(taken_at_the_middle(&model.ranges()?));
-        report.rates_not_given = rates_not_given(model);
-        report.suit_units();
-        return finite(report);
-    }
     let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
     let state = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
     answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
@@ -188,8 +181,11 @@ fn answered(
 ) -> Result<SolveReport, Faults> {
     let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
     if has_rough_hinges || !stages.standing.is_empty() {
+        let at_rest = resting::may_lift_off(&stages.mechanism, &stages.standing);
         let mut report = if has_rough_hinges {
             blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
+        } else if at_rest {
+            resting::of_contacts(stages, equations)?
         } else {
             standing::of_contacts(stages, equations)?
         };
@@ -197,7 +193,7 @@ fn answered(
             report.open.extend(taken_at_the_middle(ranges));
         }
         report.rates_not_given = rates_not_given(model);
-        if options.margins {
+        if options.margins && !at_rest {
             from_rest::add(&mut report, model, progress);
         }
         report.suit_units();

@@ -116,6 +116,11 @@ pub(crate) fn sliding_in_words(
     format!("{moving} slides along ({}, {}){place}", against(direction.x, 1.0), against(direction.y, 1.0))
 }
 
+/// "sticks", of a disc that may roll "does not slip".
+pub(crate) fn sticking_in_words(slider: &Slider) -> &'static str {
+    if slider.is_disc() { "does not slip" } else { "sticks" }
+}
+
 struct GuideInWords {
     tangent: Vector2<f64>,
     around: bool,

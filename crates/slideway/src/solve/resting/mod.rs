@@ -19,15 +19,14 @@ mod patterns;
 use super::answer::{Answer, Tipped, joint_modes, status};
 use super::attainability::not_computed;
 use super::distinct::distinct;
-use super::mode_problem::{Sliding, none_stands, sliding_signs};
 use super::stages::Stages;
+use super::standing::check_standing;
 use super::standing::polyhedron::{Extremes, Polyhedron};
 use super::state::{Held, State, pattern, signs};
-use super::words::sliding_in_words;
-use crate::configuration::Configuration;
+use super::words::{sliding_in_words, sticking_in_words};
 use crate::fault::Faults;
-use crate::ids::JointId;
-use crate::influence::{ContactFriction, Influence};
+use crate::ids::{ContactId, JointId};
+use crate::influence::ContactFriction;
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
 use crate::modes::{Certificate, ContactState};
@@ -60,87 +59,34 @@ struct Pattern {
     starts: Vec<Option<Start>>,
 }
 
-/// The joints that may lift off and do not slide at the start, if these are all that do not.
-///
-/// # Errors
-/// Other contacts with friction that do not slide.
-fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<RestingJoint>, Faults> {
-    let signs = sliding_signs(mechanism, configuration);
-    let rests = |k: usize| {
-        let contact = &mechanism.contacts[k];
-        contact.opens && contact.may_hold() && signs[k] == 0.0
-    };
+/// The joints that may lift off and do not slide at the start.
+fn resting(Stages { mechanism, configuration, standing, .. }: &Stages) -> Vec<RestingJoint> {
     let joint = |(index, joint): (usize, &crate::mechanism::Joint)| {
         let JointKind::Slider(slider) = &joint.kind else { return None };
-        let contacts: Vec<usize> = slider.contacts.iter().map(|contact| contact.index()).collect();
-        let row = || SlidingRow::new(mechanism, configuration, slider);
-        contacts.iter().any(|&k| rests(k)).then(|| RestingJoint {
+        slider.contacts.iter().any(|contact| standing.contains(contact)).then(|| RestingJoint {
             joint: JointId(index),
-            row: row(),
-            contacts,
+            row: SlidingRow::new(mechanism, configuration, slider),
+            contacts: slider.contacts.iter().map(|contact| contact.index()).collect(),
         })
     };
-    let joints: Vec<RestingJoint> = mechanism.joints.iter().enumerate().filter_map(joint).collect();
-    if joints.is_empty() {
-        return Ok(joints);
-    }
-    mechanism.check_no_disc_at_rest(rests)?;
-    let mut others = mechanism.clone();
-    for joint in &joints {
-        joint
-            .contacts
-            .iter()
-            .for_each(|&k| (others.contacts[k].mu, others.contacts[k].mu_static) = Default::default());
-    }
-    none_stands(&others, &Sliding::of(&others, configuration)?.standing)?;
-    Ok(joints)
+    mechanism.joints.iter().enumerate().filter_map(joint).collect()
 }
 
-/// Which contacts slide, where those that may lift off need not.
-///
-/// # Errors
-/// Other contacts with friction that do not slide.
-pub(crate) fn sliding_or_resting(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-) -> Result<Sliding, Faults> {
-    if resting(mechanism, configuration)?.is_empty() {
-        return Sliding::of(mechanism, configuration);
-    }
-    Ok(Sliding { signs: sliding_signs(mechanism, configuration), standing: Vec::new() })
+/// Returns whether contacts that may lift off are among those that do not slide.
+pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> bool {
+    standing.iter().any(|contact| mechanism.contacts[contact.index()].opens)
 }
 
-/// All states of a mechanism of which contacts that may lift off do not slide at the start; none if there are no such contacts.
+/// All states of a mechanism of which contacts that may lift off do not slide at the start.
 ///
 /// # Errors
-/// Other contacts with friction that do not slide, friction in hinges beside them, more patterns of states than are tried.
-pub(super) fn of_mechanism(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-) -> Result<Option<SolveReport>, Faults> {
-    if mechanism.one_sided().next().is_none() {
-        return Ok(None);
-    }
-    let mut mechanism = mechanism.clone();
-    configuration.put_friction(&mut mechanism)?;
-    let joints = resting(&mechanism, configuration)?;
-    if joints.is_empty() {
-        return Ok(None);
-    }
-    let equations = KineticEquations::new(&mechanism, configuration)?;
-    let influences = equations.influences();
-    let stages = Stages {
-        velocity_signs: sliding_signs(&mechanism, configuration),
-        accuracy: influences.accuracy(),
-        influence: Influence::of(influences),
-        mechanism,
-        configuration: configuration.clone(),
-        standing: Vec::new(),
-    };
+/// Other contacts that stand still beside them, more patterns of states than are tried.
+pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Result<SolveReport, Faults> {
+    check_standing(&stages.mechanism, &stages.standing)?;
     let mut smooth = stages.mechanism.clone();
     smooth.multiply_friction_of_contacts(|_| 0.0);
-    let answer = Answer::determinate(&stages, &equations);
-    Resting { answer, stages: &stages, joints, smooth }.report().map(Some)
+    let answer = Answer::determinate(stages, equations);
+    Resting { answer, stages, joints: resting(stages), smooth }.report()
 }
 
 /// A mechanism of which some joints are at rest.
@@ -169,9 +115,12 @@ impl Resting<'_> {
             self.names()
         )];
         let (mut solutions, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
-        let (nodes, every_load_has_one_state) = (all.len() as u64, self.is_unique(&all));
+        let nodes = all.len() as u64;
+        let mut every_load_has_one_state = self.may_be_unique().then_some(true);
         for pattern in all {
             let system = self.system(pattern, &self.stages.mechanism);
+            every_load_has_one_state = every_load_has_one_state
+                .and_then(|all| Some(all && self.oriented(&system).map(|oriented| oriented > 0.0)?));
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
                 let unknowns = set.particular() * self.force();
@@ -278,7 +227,7 @@ impl Resting<'_> {
                     let sign = if *sign < 0.0 { -1 } else { 1 };
                     sliding_in_words(mechanism, configuration, slider, sign)
                 }
-                (Some(Start::Sticks), _) => "sticks".to_owned(),
+                (Some(Start::Sticks), Some(slider)) => sticking_in_words(slider).to_owned(),
                 _ => continue,
             };
             mode.mode = format!("{}, {starts}", mode.mode);

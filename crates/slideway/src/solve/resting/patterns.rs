@@ -180,20 +180,14 @@ impl Resting<'_> {
         (of_smooth.abs() > TOLERANCE * size).then(|| matrix.determinant() / of_smooth * factor)
     }
 
-    /// Whether every load has exactly one state, where nothing slides and static friction is kinetic friction: the oriented
-    /// determinants of all patterns are positive (Kuhn and Loewen 1987). None where that is no answer.
-    pub(super) fn is_unique(&self, patterns: &[Pattern]) -> Option<bool> {
+    /// Whether the signs of the oriented determinants tell if every load has exactly one state, which it has where those of all
+    /// patterns are positive (Kuhn and Loewen 1987): nothing slides, and static friction is kinetic friction.
+    pub(super) fn may_be_unique(&self) -> bool {
         let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;
         let slides =
             |k: usize| self.stages.velocity_signs[k] != 0.0 && self.stages.mechanism.contacts[k].may_hold();
         let contacts = &self.stages.mechanism.contacts;
-        if !contacts.iter().all(has_one_law) || (0..contacts.len()).any(slides) {
-            return None;
-        }
-        let determinant =
-            |pattern: &Pattern| self.oriented(&self.system(pattern.clone(), &self.stages.mechanism));
-        let all: Option<Vec<f64>> = patterns.iter().map(determinant).collect();
-        Some(all?.iter().all(|determinant| *determinant > 0.0))
+        contacts.iter().all(has_one_law) && !(0..contacts.len()).any(slides)
     }
 
     /// By what the rows of a matrix are divided.
