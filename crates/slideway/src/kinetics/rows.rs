@@ -206,8 +206,7 @@ pub(super) fn sliding<T: Real>(
 ) -> ConstraintRow<T> {
     let mut row = ConstraintRow::empty();
     let tangent = configuration.tangent(mechanism, slider);
-    let rim = if slider.is_disc() { slider.height / T::exactly(2.0) } else { T::zero() };
-    let place = middle(mechanism, configuration, slider) - rot90(tangent) * rim;
+    let place = middle(mechanism, configuration, slider) - rot90(tangent) * slider.rim();
     row.add_relative(configuration, slider, (place, tangent));
     row
 }

@@ -96,7 +96,7 @@ fn does_not_slide(mechanism: &Mechanism, contacts: &[ContactId], why: NoSliding)
     place.map_or_else(|| Fault::general(kind.clone()), |place| Fault::new(kind.clone(), place)).into()
 }
 
-/// The signs of the sliding velocities, 0 where they vanish within rounding.
+/// The signs of the sliding velocities, 0 where they vanish within rounding, and of what sticks.
 pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration) -> DVector<f64> {
     let contacts = (0..mechanism.contacts.len()).map(ContactId);
     let sliding: Vec<f64> =
@@ -106,7 +106,10 @@ pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration
     let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
     let at_rest = |velocity: f64| velocity.abs() <= AT_REST * greatest;
     let sign = |velocity: &f64| if at_rest(*velocity) { 0.0 } else { velocity.signum() };
-    DVector::from_iterator(sliding.len(), sliding.iter().map(sign))
+    let mut signs = DVector::from_iterator(sliding.len(), sliding.iter().map(sign));
+    let sticking = mechanism.sticking().flat_map(|(_, slider)| &slider.contacts);
+    sticking.for_each(|contact| signs[contact.index()] = 0.0);
+    signs
 }
 
 /// The mode problem of a mechanism, eqs. (6) and (8): its unknowns are the |N_k|.

@@ -81,6 +81,7 @@ impl Setup {
         original.check_size()?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();
+        mechanism.let_slip();
         configuration.put_misalignments(&mut mechanism)?;
         if !options.hold_drives {
             mechanism.drives.clear();
