@@ -393,9 +393,14 @@ impl SlidingRow {
         self.0.times(unknowns)
     }
 
+    /// The part of the velocities in the acceleration of sliding (m/s^2).
+    pub(crate) fn of_velocities(&self) -> f64 {
+        -self.0.right_hand_side
+    }
+
     /// The acceleration of sliding that belongs to the unknowns (m/s^2), the velocities' part included.
     pub(crate) fn acceleration(&self, unknowns: &DVector<f64>) -> f64 {
-        self.0.times(unknowns) - self.0.right_hand_side
+        self.change(unknowns) + self.of_velocities()
     }
 }
 

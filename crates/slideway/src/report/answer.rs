@@ -1,7 +1,7 @@
 //! The plain answer of `solve`, as one would say it to a colleague.
 
 use super::effort::{self, least_friction, times, times_friction};
-use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
+use super::{Contact, Drive, JamImpulse, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
 use crate::units::brief;
 
 /// The remedy where a search ended early.
@@ -74,6 +74,26 @@ impl SolveReport {
         })
     }
 
+    /// What a mechanism that jams does instead: "An impulse without collision stops it: afterwards tip is closed, sticks."
+    fn impulse_in_words(&self) -> Option<String> {
+        let after = |impulse: &JamImpulse| {
+            let joints = impulse.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode));
+            let energy = self.model.units.of("J").show(impulse.energy_lost);
+            format!("{} (it takes {energy})", joints.collect::<Vec<_>>().join("; "))
+        };
+        Some(match self.jam_impulses.as_deref()? {
+            [] if self.model.drives > 0 => {
+                "No impulse without collision ends that, either: its drives stall.".to_owned()
+            }
+            [] => return None,
+            [only] => format!("Velocities jump without a collision. Afterwards {}.", after(only)),
+            several => {
+                let ways: Vec<String> = several.iter().map(after).collect();
+                format!("Velocities jump without a collision, in one of {} ways. Afterwards {}.", ways.len(), ways.join(". Or "))
+            }
+        })
+    }
+
     /// How far it is from a jam, or what would end one: "It would jam from mu = 0.6667 (2.222 times this
     /// friction)." Empty where nothing is known, or nothing changes, and where it is not decided whether it moves: there
     /// a factor would be read as a promise.
@@ -84,10 +104,8 @@ impl SolveReport {
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
             let below = margins.moves_below.map(|below| least_friction(below.factor, below.mu));
-            return below
-                .map(|below| format!("It {} below {below}.", self.what_ends()))
-                .into_iter()
-                .collect();
+            let below = below.map(|below| format!("It {} below {below}.", self.what_ends()));
+            return below.into_iter().chain(self.impulse_in_words()).collect();
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
         let mut sentences = Vec::new();

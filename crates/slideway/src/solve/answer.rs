@@ -163,6 +163,7 @@ impl<'a> Answer<'a> {
             rejected: Vec::new(),
             closest_modes: Vec::new(),
             jammed_groups: Vec::new(),
+            jam_impulses: None,
             margins: None,
             margins_missing: None,
             unique_at_least: None,

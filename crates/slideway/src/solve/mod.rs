@@ -81,7 +81,7 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::{Callback, Progress};
-use crate::report::{SolveReport, finite};
+use crate::report::{SolveReport, Status, finite};
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -225,6 +225,9 @@ fn answered(
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok(), &|signs| answer.joint_modes(signs));
         from_rest::add(&mut report, model, progress);
+        if report.status == Status::None {
+            report.jam_impulses = resting::jam_impulses(stages, equations);
+        }
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
     report.suit_units();

@@ -562,3 +562,24 @@ fn without_friction_contacts_lift_off_too() {
         1e-9,
     );
 }
+
+/// Painlevé's rod that jams: of one contact the impulse is `A^-1 (0, -v_t)`; (0.3, 0.4) N s of the reference, which takes 0.2 J.
+#[test]
+fn an_impulse_without_collision_ends_the_jam_of_the_rod() {
+    let Reference { case } = toml::from_str(REFERENCE).unwrap();
+    let case = case.into_iter().find(|case| case.name == "painleve_rod_inconsistent").unwrap();
+    let report = report_on(&case.system.text());
+    assert_eq!(report.status, Status::None);
+    let impulses = report.jam_impulses.as_deref().unwrap();
+    let [only] = impulses else { panic!("{impulses:?}") };
+    assert_close(only.contacts[0].normal_impulse, 0.3, 1.0, 1e-12);
+    assert_close(only.contacts[0].friction_impulse, 0.4, 1.0, 1e-12);
+    assert_close(only.energy_lost, 0.2, 1.0, 1e-12);
+    let words = "It jams: friction locks it. Velocities jump without a collision. Afterwards P: closed, sticks (it takes 0.2 J).";
+    assert!(report.answer().starts_with("It jams: friction locks it.") && report.answer().ends_with(&words[27..]), "{}", report.answer());
+    // Rolls that are driven let nothing stop: the disc would have to go through their gap.
+    let rolls = include_str!("../../../../docs/src/examples/nip-of-rolls.toml").replace("mu = 0.3", "mu = 0.45");
+    let report = report_on(&rolls);
+    assert_eq!(report.jam_impulses.as_deref(), Some(&[][..]));
+    assert!(report.answer().ends_with("No impulse without collision ends that, either: its drives stall."), "{}", report.answer());
+}

@@ -14,11 +14,13 @@
 //! values for each contact would state the same as a block problem, whose search is proven, with patterns beside that no state
 //! has; the native states also have static friction above kinetic, and what the equations leave open.
 
+mod jam;
 mod patterns;
 
 use super::answer::{Answer, Tipped, joint_modes, status};
-use super::attainability::not_computed;
+use super::attainability::{Closed, not_computed};
 use super::distinct::distinct;
+use super::mode_problem::ProblemData;
 use super::stages::Stages;
 use super::standing::check_standing;
 use super::standing::polyhedron::{Extremes, Polyhedron};
@@ -31,18 +33,30 @@ use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
 use crate::modes::{Certificate, ContactState};
 use crate::pattern::{Affine, AffineSet};
-use crate::report::{Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport};
+use crate::report::{Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, Verdict};
 use nalgebra::DVector;
+pub(super) use jam::impulses as jam_impulses;
 use patterns::System;
 
 /// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
 const TOLERANCE: f64 = 1e-9;
+/// More patterns of states are refused.
+const MOST_PATTERNS: u64 = 100_000;
 
 /// A joint that does not slide at the start.
 struct RestingJoint {
     joint: JointId,
     contacts: Vec<usize>,
     row: SlidingRow,
+    /// Its rate without any unknown: part of the velocities in its acceleration; in a jam the velocity before the impulse.
+    before: f64,
+}
+
+impl RestingJoint {
+    /// Its rate with these unknowns: the acceleration of sliding, in a jam the velocity afterwards.
+    fn rate(&self, unknowns: &DVector<f64>) -> f64 {
+        self.before + self.row.change(unknowns)
+    }
 }
 
 /// What a joint at rest does that touches.
@@ -59,13 +73,20 @@ struct Pattern {
     starts: Vec<Option<Start>>,
 }
 
-/// The joints that may lift off and do not slide at the start.
-fn resting(Stages { mechanism, configuration, standing, .. }: &Stages) -> Vec<RestingJoint> {
+/// The joints of which one of these contacts is a part; `before` has the rate of each without any unknown.
+fn joints_of(
+    Stages { mechanism, configuration, .. }: &Stages,
+    contacts: &[ContactId],
+    before: impl Fn(&SlidingRow, ContactId) -> f64,
+) -> Vec<RestingJoint> {
     let joint = |(index, joint): (usize, &crate::mechanism::Joint)| {
         let JointKind::Slider(slider) = &joint.kind else { return None };
-        slider.contacts.iter().any(|contact| standing.contains(contact)).then(|| RestingJoint {
+        let first = *slider.contacts.iter().find(|contact| contacts.contains(contact))?;
+        let row = SlidingRow::new(mechanism, configuration, slider);
+        Some(RestingJoint {
             joint: JointId(index),
-            row: SlidingRow::new(mechanism, configuration, slider),
+            before: before(&row, first),
+            row,
             contacts: slider.contacts.iter().map(|contact| contact.index()).collect(),
         })
     };
@@ -83,10 +104,11 @@ pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> boo
 /// Other contacts that stand still beside them, more patterns of states than are tried.
 pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Result<SolveReport, Faults> {
     check_standing(&stages.mechanism, &stages.standing)?;
-    let mut smooth = stages.mechanism.clone();
-    smooth.multiply_friction_of_contacts(|_| 0.0);
-    let answer = Answer::determinate(stages, equations);
-    Resting { answer, stages, joints: resting(stages), smooth }.report()
+    let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
+    // The greatest normal force with all contacts closed and without friction, or 1 N.
+    let greatest = stages.influence.normal_forces().amax();
+    let force = if greatest > 0.0 { greatest } else { 1.0 };
+    Resting::new(stages, equations, (joints, force)).report()
 }
 
 /// A mechanism of which some joints are at rest.
@@ -96,6 +118,8 @@ struct Resting<'a> {
     joints: Vec<RestingJoint>,
     /// The mechanism without friction.
     smooth: Mechanism,
+    /// The unit of forces (N), in a jam of impulses (N s).
+    force: f64,
 }
 
 /// A point of what a pattern leaves.
@@ -107,9 +131,19 @@ struct Point {
     oriented: f64,
 }
 
-impl Resting<'_> {
+impl<'a> Resting<'a> {
+    fn new(
+        stages: &'a Stages,
+        equations: &'a KineticEquations,
+        (joints, force): (Vec<RestingJoint>, f64),
+    ) -> Self {
+        let mut smooth = stages.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|_| 0.0);
+        Self { answer: Answer::determinate(stages, equations), stages, joints, smooth, force }
+    }
+
     fn report(&self) -> Result<SolveReport, Faults> {
-        let all = self.patterns()?;
+        let all = self.patterns(MOST_PATTERNS)?;
         let open = vec![format!(
             "the states of {}, at rest at the start, are computed in floating point",
             self.names()
@@ -123,7 +157,7 @@ impl Resting<'_> {
                 .and_then(|all| Some(all && self.oriented(&system).map(|oriented| oriented > 0.0)?));
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
-                let unknowns = set.particular() * self.force();
+                let unknowns = set.particular() * self.force;
                 if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
                     solutions.extend(self.solution(&point, &mut tipped));
                 }
@@ -163,7 +197,7 @@ impl Resting<'_> {
         unknowns: &DVector<f64>,
         [beginning, slacks]: &[Vec<Affine>; 2],
     ) -> Option<Point> {
-        let rounding = TOLERANCE * unknowns.amax().max(self.force()) / self.force();
+        let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
         let begins = beginning.iter().all(|slack| slack.constant > rounding);
         let holds = slacks.iter().all(|slack| slack.constant >= -rounding);
         (begins && holds).then(|| self.at(system, unknowns))
@@ -174,7 +208,7 @@ impl Resting<'_> {
         let mechanism = &self.stages.mechanism;
         let Pattern { states, starts } = &system.pattern;
         let contacts = states.len();
-        let nothing = TOLERANCE * unknowns.amax().max(self.force());
+        let nothing = TOLERANCE * unknowns.amax().max(self.force);
         let force = |k: usize| if unknowns[k].abs() <= nothing { 0.0 } else { unknowns[k] };
         let mut held = Vec::new();
         for (index, (joint, start)) in self.joints.iter().zip(starts).enumerate() {
@@ -210,9 +244,38 @@ impl Resting<'_> {
 
     fn solution(&self, point: &Point, tipped: &mut Tipped) -> Option<Solution> {
         let mut kept = self.answer.kept(&point.state(), tipped)?;
-        kept.attainability = not_computed("contacts are at rest at the start");
+        kept.attainability = self.attainability(point);
         kept.joints = self.words(point);
         Some(kept)
+    }
+
+    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick: not
+    /// where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and without
+    /// any that stick the state is that of contacts that slide.
+    fn attainability(&self, point: &Point) -> Attainability {
+        let Stages { mechanism, configuration, influence, .. } = self.stages;
+        let (signs, states) = (self.signs(&point.pattern), &point.pattern.states);
+        let open: Vec<usize> = (0..states.len()).filter(|&k| self.is_open(&point.pattern, k)).collect();
+        let is_closed = |k: &usize| !open.contains(k);
+        let rubs = |k: usize| signs[k] != 0.0 && mechanism.contacts[k].may_hold();
+        let sticks = point.pattern.starts.contains(&Some(Start::Sticks));
+        let told = |verdict| Attainability {
+            reason: None,
+            ..Attainability::without_eigenvalues(verdict, "")
+        };
+        if point.signs.contains(&0) {
+            not_computed("a contact is about to open or to touch")
+        } else if point.oriented < 0.0 {
+            told(Verdict::Unattainable)
+        } else if mechanism.drives.is_empty() && !(0..states.len()).filter(is_closed).any(rubs) {
+            told(Verdict::Attainable)
+        } else if sticks {
+            not_computed("some contacts stick while others slide, or drives act")
+        } else {
+            let data = ProblemData { mechanism, influence, velocity_signs: &signs };
+            let closed = Closed::new(data, (configuration, self.answer.equations), &open);
+            closed.map_or_else(|_| not_computed("drives cannot act on what is left"), |closed| told(closed.verdict_on(states)))
+        }
     }
 
     /// What each sliding joint does, those at rest with how they start.
@@ -255,7 +318,7 @@ impl Resting<'_> {
             return None;
         }
         let first = corners.first()?;
-        let unknowns = |free: &DVector<f64>| set.at(free) * self.force();
+        let unknowns = |free: &DVector<f64>| set.at(free) * self.force;
         let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
         let all = |free: &DVector<f64>| self.answer.unknowns(&point(free).state());
         let list = |point: &Point| point.normal_force.iter().map(|force| force + 0.0).collect::<Vec<f64>>();
