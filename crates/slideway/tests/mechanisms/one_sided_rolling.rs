@@ -5,6 +5,7 @@ use crate::answers::{assert_close, contact, only, report_on};
 use rstest::rstest;
 use slideway::configuration::Configuration;
 use slideway::fault::FaultKind;
+use slideway::map::ColourBy;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
@@ -44,7 +45,7 @@ fn a_disc_rolls_on_a_cylinder(#[case] degrees: f64) {
     assert_close(top.normal_force, GRAVITY * cos - 0.36 / (R + face), 1.0, 1e-10);
     assert_close(top.friction_force.abs(), GRAVITY * sin.abs() / 3.0, 1.0, 1e-10);
     assert_close(solution.bodies[0].angular_acceleration, -GRAVITY * sin / 1.5 / R, 100.0, 1e-10);
-    assert_eq!(top.sliding_velocity.abs() < 1e-12, true);
+    assert!(top.sliding_velocity.abs() < 1e-12);
     let mechanism = Mechanism::new(&Model::parse(&text).unwrap()).unwrap();
     let place = Configuration::new(&mechanism).unwrap().poses[0].position;
     assert_close(place.x, (R + face) * sin, 1.0, 1e-12);
@@ -151,8 +152,10 @@ fn sweeps_and_maps_know_what_is_at_rest() {
     }
     assert_eq!(seen, 21);
     let options = MapOptions::new(Vary::between("mu", 0.0, 0.2), Vary::between("pull", -2.0, 2.0)).size(20, 20);
-    let found = map(&model, &options.probe(4)).unwrap();
-    assert_eq!(found.classes.len(), 1, "{:?}", found.classes);
+    let found = map(&model, &options.probe(1).colour_by(ColourBy::Modes)).unwrap();
+    // It rolls, or slips: upwards if it is pulled up by more than friction holds, else downwards.
+    assert_eq!(found.classes.len(), 3, "{:?}", found.classes);
+    assert!(found.classes.iter().any(|class| class.words == "foot: closed, does not slip"), "{:?}", found.classes);
 }
 
 /// A drive that holds a box on an incline needs anything from `m g (sin - mu cos)` to `m g (sin + mu cos)`; beyond it sets the box in motion.
@@ -160,7 +163,7 @@ fn sweeps_and_maps_know_what_is_at_rest() {
 fn a_drive_at_rest_has_the_range_that_friction_leaves() {
     let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
     let text = text.replace("rate = \"-1 m/s\"", "");
-    let drive_table = "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", along = \"slope\" }\n";
+    let drive_table = "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
     let model = Model::parse(&(text + drive_table)).unwrap();
     let report = drive(&model, &DriveOptions::default()).unwrap();
     panic!("{report:#?}");

@@ -18,6 +18,7 @@ use crate::ids::ContactId;
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{JointKind, Mechanism};
 use crate::report::{ContactImpulse, CoordinateState, JamImpulse};
+use crate::solve::answer::Answer;
 use crate::solve::stages::Stages;
 use nalgebra::{DVector, Vector2};
 
@@ -44,7 +45,8 @@ pub(in crate::solve) fn impulses(stages: &Stages, equations: &KineticEquations) 
         return None;
     }
     let others = others(&stages);
-    Jam { resting: Resting::new(&stages, equations, (joints, impulse)), others }.impulses()
+    let answer = Answer::determinate(&stages, equations);
+    Jam { resting: Resting::new(&answer, joints, impulse), others }.impulses()
 }
 
 /// The velocities of the other sliding joints with friction, each with its row and its sign.
@@ -71,24 +73,24 @@ impl Jam<'_> {
         let patterns = self.resting.patterns(MOST_PATTERNS).ok()?;
         let sticks = |start: &Option<Start>| *start == Some(Start::Sticks);
         let wedged = patterns.into_iter().filter(|pattern| pattern.starts.iter().any(sticks));
-        let systems = wedged.map(|pattern| self.resting.system(pattern, &self.resting.stages.mechanism));
+        let systems = wedged.map(|pattern| self.resting.system(pattern, self.resting.answer.mechanism));
         Some(systems.filter_map(|system| self.impulse(&system)).collect())
     }
 
     /// The impulse of a pattern, if all of its inequalities hold and what else slides goes on.
     fn impulse(&self, system: &System) -> Option<JamImpulse> {
         let resting = &self.resting;
-        let Stages { mechanism, configuration, .. } = resting.stages;
+        let Answer { mechanism, configuration, influence, .. } = *resting.answer;
         let set = resting.equations(system).filter(|set| set.dimension() == 0)?;
         let unknowns = set.particular() * resting.force;
         let point = resting.point(system, &unknowns, &resting.slacks(system, &set))?;
-        let jumps = resting.answer.unknowns(&point.state());
+        let frictions = resting.answer.friction(&point.state());
+        let jumps = influence.unknowns(&frictions, &point.normal_force);
         let goes_on = |(row, velocity): &(SlidingRow, f64)| (velocity + row.change(&jumps)) * velocity >= 0.0;
         if !self.others.iter().all(goes_on) {
             return None;
         }
         let force = |k: usize, force: f64| if resting.is_open(&system.pattern, k) { 0.0 } else { force + 0.0 };
-        let frictions = resting.answer.friction(&point.state());
         let contact = |(k, contact): (usize, &crate::mechanism::Contact)| ContactImpulse {
             name: contact.name.to_string(),
             normal_impulse: force(k, point.normal_force[k]),

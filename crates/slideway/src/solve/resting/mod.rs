@@ -28,7 +28,7 @@ use super::state::{Held, State, pattern, signs};
 use super::words::{sliding_in_words, sticking_in_words};
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
-use crate::influence::ContactFriction;
+use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
 use crate::modes::{Certificate, ContactState};
@@ -105,16 +105,19 @@ pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> boo
 pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Result<SolveReport, Faults> {
     check_standing(&stages.mechanism, &stages.standing)?;
     let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
-    // The greatest normal force with all contacts closed and without friction, or 1 N.
-    let greatest = stages.influence.normal_forces().amax();
-    let force = if greatest > 0.0 { greatest } else { 1.0 };
-    Resting::new(stages, equations, (joints, force)).report()
+    let force = greatest_force(&stages.influence);
+    Resting::new(&Answer::determinate(stages, equations), joints, force).report()
+}
+
+/// The greatest normal force with all contacts closed and without friction, or 1 N.
+fn greatest_force(influence: &Influence) -> f64 {
+    let greatest = influence.normal_forces().amax();
+    if greatest > 0.0 { greatest } else { 1.0 }
 }
 
 /// A mechanism of which some joints are at rest.
-struct Resting<'a> {
-    answer: Answer<'a>,
-    stages: &'a Stages,
+pub(super) struct Resting<'a> {
+    answer: &'a Answer<'a>,
     joints: Vec<RestingJoint>,
     /// The mechanism without friction.
     smooth: Mechanism,
@@ -131,15 +134,58 @@ struct Point {
     oriented: f64,
 }
 
+/// Steps of refinement of the forces of a pattern.
+const REFINEMENTS: usize = 2;
+
 impl<'a> Resting<'a> {
-    fn new(
-        stages: &'a Stages,
-        equations: &'a KineticEquations,
-        (joints, force): (Vec<RestingJoint>, f64),
-    ) -> Self {
-        let mut smooth = stages.mechanism.clone();
+    fn new(answer: &'a Answer<'a>, joints: Vec<RestingJoint>, force: f64) -> Self {
+        let mut smooth = answer.mechanism.clone();
         smooth.multiply_friction_of_contacts(|_| 0.0);
-        Self { answer: Answer::determinate(stages, equations), stages, joints, smooth, force }
+        Self { answer, joints, smooth, force }
+    }
+
+    /// A mechanism of which no joint is at rest.
+    pub(super) fn sliding(answer: &'a Answer<'a>) -> Self {
+        Self::new(answer, Vec::new(), greatest_force(answer.influence))
+    }
+
+    /// The normal forces of a state of a mechanism of which no joint is at rest, refined where contacts lift off.
+    pub(super) fn refined_forces(
+        &self,
+        states: &[ContactState],
+        normal_force: &DVector<f64>,
+    ) -> DVector<f64> {
+        if !self.answer.can_be_refined(states) {
+            return normal_force.clone();
+        }
+        let pattern = Pattern { states: states.to_vec(), starts: Vec::new() };
+        let system = self.system(pattern, self.answer.mechanism);
+        let forces = self.refined(&system, normal_force.abs());
+        DVector::from_fn(forces.len(), |k, _| states[k].sign() * forces[k])
+    }
+
+    /// The unknowns of a pattern after some steps of iterative refinement, where contacts lift off: what great forces of closed
+    /// contacts leave where they cancel is known from the equations themselves, not from the influences.
+    fn refined(&self, system: &System, mut unknowns: DVector<f64>) -> DVector<f64> {
+        let states = &system.pattern.states;
+        if !self.answer.can_be_refined(states) {
+            return unknowns;
+        }
+        let factors = self.matrix(system).lu();
+        for _ in 0..REFINEMENTS {
+            let all = self.answer.refined(&self.at(system, &unknowns).state());
+            let left = DVector::from_fn(unknowns.len(), |row, _| match row.checked_sub(states.len()) {
+                None if self.is_open(&system.pattern, row) => all[self.place(row)] / self.force,
+                None => (all[self.place(row)] - states[row].sign() * unknowns[row]) / self.force,
+                Some(stuck) => {
+                    let joint = system.sticking[stuck];
+                    self.joints[joint].rate(&all) / self.acceleration(joint)
+                }
+            });
+            let Some(step) = factors.solve(&left) else { break };
+            unknowns -= step * self.force;
+        }
+        unknowns
     }
 
     fn report(&self) -> Result<SolveReport, Faults> {
@@ -152,12 +198,12 @@ impl<'a> Resting<'a> {
         let nodes = all.len() as u64;
         let mut every_load_has_one_state = self.may_be_unique().then_some(true);
         for pattern in all {
-            let system = self.system(pattern, &self.stages.mechanism);
+            let system = self.system(pattern, self.answer.mechanism);
             every_load_has_one_state = every_load_has_one_state
                 .and_then(|all| Some(all && self.oriented(&system).map(|oriented| oriented > 0.0)?));
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
-                let unknowns = set.particular() * self.force;
+                let unknowns = self.refined(&system, set.particular() * self.force);
                 if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
                     solutions.extend(self.solution(&point, &mut tipped));
                 }
@@ -183,7 +229,7 @@ impl<'a> Resting<'a> {
     }
 
     fn name(&self, joint: &RestingJoint) -> &str {
-        &self.stages.mechanism.joints[joint.joint.index()].name
+        &self.answer.mechanism.joints[joint.joint.index()].name
     }
 
     fn names(&self) -> String {
@@ -205,7 +251,7 @@ impl<'a> Resting<'a> {
 
     /// What contacts do with these unknowns. Forces that are rounding are none.
     fn at(&self, system: &System, unknowns: &DVector<f64>) -> Point {
-        let mechanism = &self.stages.mechanism;
+        let mechanism = self.answer.mechanism;
         let Pattern { states, starts } = &system.pattern;
         let contacts = states.len();
         let nothing = TOLERANCE * unknowns.amax().max(self.force);
@@ -253,7 +299,7 @@ impl<'a> Resting<'a> {
     /// where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and without
     /// any that stick the state is that of contacts that slide.
     fn attainability(&self, point: &Point) -> Attainability {
-        let Stages { mechanism, configuration, influence, .. } = self.stages;
+        let Answer { mechanism, configuration, influence, .. } = *self.answer;
         let (signs, states) = (self.signs(&point.pattern), &point.pattern.states);
         let open: Vec<usize> = (0..states.len()).filter(|&k| self.is_open(&point.pattern, k)).collect();
         let is_closed = |k: &usize| !open.contains(k);
@@ -280,7 +326,7 @@ impl<'a> Resting<'a> {
 
     /// What each sliding joint does, those at rest with how they start.
     fn words(&self, point: &Point) -> Vec<JointMode> {
-        let Stages { mechanism, configuration, .. } = self.stages;
+        let Answer { mechanism, configuration, .. } = *self.answer;
         let mut modes = joint_modes(mechanism, configuration, &point.signs);
         for (joint, start) in self.joints.iter().zip(&point.pattern.starts) {
             let name = self.name(joint);
@@ -338,7 +384,7 @@ impl<'a> Resting<'a> {
         };
         let stuck = system.sticking.iter().flat_map(|&joint| self.joints[joint].contacts.clone());
         let of_contact = |k: usize| HeldFriction {
-            name: self.stages.mechanism.contacts[k].name.to_string(),
+            name: self.answer.mechanism.contacts[k].name.to_string(),
             unit: "N",
             at: corners.iter().map(|corner| held(k, corner)).collect(),
             along: growths.iter().map(|growth| held(k, &(first + growth)) - held(k, first)).collect(),

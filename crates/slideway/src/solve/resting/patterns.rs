@@ -27,7 +27,7 @@ impl Resting<'_> {
     /// There are more.
     pub(super) fn patterns(&self, most: u64) -> Result<Vec<Pattern>, Faults> {
         use ContactState::{Negative, Positive};
-        let contacts = self.stages.mechanism.contacts.len();
+        let contacts = self.answer.mechanism.contacts.len();
         let at_rest: Vec<usize> = self.joints.iter().flat_map(|joint| joint.contacts.clone()).collect();
         let of_joint = |joint: &RestingJoint| 3 * ((1_u64 << joint.contacts.len()) - 1) + 1;
         let sliding = u32::try_from(contacts - at_rest.len()).ok().and_then(|count| 2_u64.checked_pow(count));
@@ -64,7 +64,7 @@ impl Resting<'_> {
 
     /// The signs of the velocities with which contacts slide or begin to.
     pub(super) fn signs(&self, pattern: &Pattern) -> DVector<f64> {
-        let mut signs = self.stages.velocity_signs.clone();
+        let mut signs = self.answer.velocity_signs.clone();
         for (joint, start) in self.joints.iter().zip(&pattern.starts) {
             let sign = if let Some(Start::Slips(sign)) = start { *sign } else { 0.0 };
             joint.contacts.iter().for_each(|&k| signs[k] = sign);
@@ -74,7 +74,7 @@ impl Resting<'_> {
 
     /// The unknowns of the kinetic equations without the forces of a pattern, and what a unit of each adds.
     pub(super) fn system(&self, pattern: Pattern, mechanism: &Mechanism) -> System {
-        let (influence, signs) = (&self.stages.influence, self.signs(&pattern));
+        let (influence, signs) = (self.answer.influence, self.signs(&pattern));
         let contacts = pattern.states.len();
         let shares = vec![None; contacts];
         let unknowns = |forces: &DVector<f64>| {
@@ -137,7 +137,7 @@ impl Resting<'_> {
     /// touches.
     pub(super) fn slacks(&self, system: &System, set: &AffineSet) -> [Vec<Affine>; 2] {
         let contacts = system.pattern.states.len();
-        let mechanism = &self.stages.mechanism;
+        let mechanism = self.answer.mechanism;
         let (open, closed): (Vec<usize>, Vec<usize>) =
             (0..contacts).partition(|&k| self.is_open(&system.pattern, k));
         let own = |list: Vec<usize>| -> Vec<AffineExpression> {
@@ -186,8 +186,8 @@ impl Resting<'_> {
     pub(super) fn may_be_unique(&self) -> bool {
         let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;
         let slides =
-            |k: usize| self.stages.velocity_signs[k] != 0.0 && self.stages.mechanism.contacts[k].may_hold();
-        let contacts = &self.stages.mechanism.contacts;
+            |k: usize| self.answer.velocity_signs[k] != 0.0 && self.answer.mechanism.contacts[k].may_hold();
+        let contacts = &self.answer.mechanism.contacts;
         contacts.iter().all(has_one_law) && !(0..contacts.len()).any(slides)
     }
 
@@ -197,18 +197,18 @@ impl Resting<'_> {
     }
 
     pub(super) fn is_open(&self, pattern: &Pattern, k: usize) -> bool {
-        self.stages.mechanism.contacts[k].opens && pattern.states[k] == ContactState::Negative
+        self.answer.mechanism.contacts[k].opens && pattern.states[k] == ContactState::Negative
     }
 
     pub(super) fn place(&self, k: usize) -> usize {
-        let place = self.stages.influence.layout().reaction(Reaction::Normal(ContactId(k)));
+        let place = self.answer.influence.layout().reaction(Reaction::Normal(ContactId(k)));
         place.expect("every contact has a normal force")
     }
 
     /// What the unit of force would do to the lighter body of a joint alone, beside which accelerations of sliding are
     /// rounding: what other joints hold moves by nothing else.
     pub(super) fn acceleration(&self, joint: usize) -> f64 {
-        self.force / lighter_mass(&self.stages.mechanism, self.joints[joint].joint)
+        self.force / lighter_mass(self.answer.mechanism, self.joints[joint].joint)
     }
 }
 
