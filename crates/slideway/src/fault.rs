@@ -420,8 +420,6 @@ pub enum FaultKind {
         listed(contacts)
     )]
     OneSidedInExcess { contacts: Vec<String> },
-    #[error("a disc at rest may roll, which is not computed: {}", listed(contacts))]
-    DiscAtRest { contacts: Vec<String> },
     #[error(
         "when {} lifted off, the acceleration could not be computed, as what moves then has no mass: {motion}",
         listed(contacts)
@@ -653,9 +651,6 @@ impl FaultKind {
             Self::OneSidedInExcess { .. } => Some(
                 "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
                     .to_owned(),
-            ),
-            Self::DiscAtRest { .. } => Some(
-                "give rates with which its rim slides; where a `corner_on_face` may stand for it, `hold` knows that".to_owned(),
             ),
             Self::LiftsWithoutInertia { .. } => Some(
                 "give mass to the bodies that nothing else holds".to_owned(),

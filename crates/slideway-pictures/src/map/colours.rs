@@ -53,8 +53,11 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             };
             Paint { fill, hatching }
         }
-        ClassMeaning::Modes { .. } => {
-            let sets = classes.iter().filter(|other| matches!(other.meaning, ClassMeaning::Modes { .. }));
+        ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. } => {
+            let is_set = |other: &&MapClass| {
+                matches!(other.meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. })
+            };
+            let sets = classes.iter().filter(is_set);
             let place = sets.take_while(|other| *other != class).count();
             // After a round of colours they are hatched.
             let hatching = (place >= SETS.len()).then_some(Hatching::Falling);

@@ -30,7 +30,7 @@ use crate::mechanism::{CoordinateKind, JointKind, Mechanism, Slider};
 use crate::model::{Coordinate, Model, SliderKind, Stop};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{LoadSharing, finite};
-use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem, sliding_or_resting};
+use crate::solve::{Sliding, check_hinges, check_standing, load_sharing, mode_problem};
 use crate::units::Units;
 use crate::warning::{WarningReport, warnings};
 use nalgebra::DVector;
@@ -345,7 +345,7 @@ fn checked(model: &Model, work: Work<'_>) -> Result<CheckReport, Faults> {
     let (mut condition, mut sharing) = (None, None);
     if assembled {
         keep(configuration.put_friction(&mut mechanism));
-        let sliding = sliding_or_resting(&mechanism, &configuration);
+        let sliding = Sliding::of(&mechanism, &configuration);
         match KineticEquations::new_while(&mechanism, &configuration, &mut || !work.is_over()) {
             Ok(equations) => {
                 condition = Some(equations.condition());

@@ -24,26 +24,30 @@ use crate::ids::{BodyId, Frame};
 use crate::mechanism::rot90;
 use nalgebra::{DMatrix, DVector, Vector2};
 
+/// An angle as a sum of those of two frames: their places in a vector of (x, y, angle) of every body, each with its factor.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Angle([(usize, f64); 2]);
+
 /// An arm that turns against the axis of its equation.
 #[derive(Debug, Clone, Copy)]
 struct Turn {
     row: usize,
-    body: usize,
-    /// The body with which the axis turns.
-    against: Option<usize>,
+    /// Its angle against the axis.
+    angle: Angle,
     /// a . w, with the sign of the term.
     value: f64,
     /// |w|
     length: f64,
 }
 
-/// A distance along an axis that turns with a guide.
+/// A distance along an axis that turns.
 #[derive(Debug, Clone, Copy)]
 struct Swing {
     row: usize,
-    guide: usize,
-    /// The body at the other end of m; none if that is fixed.
-    block: Option<usize>,
+    /// The angle of the axis.
+    angle: Angle,
+    /// The bodies at both ends of m, from the second to the first; none where that is fixed.
+    bodies: [Option<usize>; 2],
     normal: Vector2<f64>,
     /// a . m
     value: f64,
@@ -87,29 +91,32 @@ impl Curvature {
     /// Adds the distance of two ends along a fixed axis as the equation `row`.
     pub(super) fn along_fixed_axis(&mut self, row: usize, ends: [End; 2], axis: Vector2<f64>) {
         for (end, sign) in ends.iter().zip([1.0, -1.0]) {
-            if let Some(body) = end.frame.body() {
+            if end.frame.body().is_some() {
                 let (value, length) = (sign * axis.dot(&end.arm), end.arm.norm());
-                self.turns.push(Turn { row, body: body.index(), against: None, value, length });
+                let angle = Angle::sum([(end.frame, 1.0), (Frame::Ground, 0.0)]);
+                self.turns.push(Turn { row, angle, value, length });
             }
         }
     }
 
-    /// Adds the distance of an end along an axis that turns with a guide as the equation `row`; `between`
-    /// leads from the origin of the guide to that of the end's body, or to the fixed end itself.
-    pub(super) fn along_guide(
+    /// Adds the distance of two ends along an axis that turns by an angle as the equation `row`; `between` leads from the origin
+    /// of the second end's body to that of the first, or to a fixed end itself.
+    pub(super) fn along_turning(
         &mut self,
         row: usize,
-        end: End,
-        guide: usize,
+        ends: [End; 2],
+        turning: Angle,
         (axis, between): (Vector2<f64>, Vector2<f64>),
     ) {
-        let block = end.frame.body().map(BodyId::index);
-        if let Some(body) = block {
-            let (value, length) = (axis.dot(&end.arm), end.arm.norm());
-            self.turns.push(Turn { row, body, against: Some(guide), value, length });
+        for (end, sign) in ends.iter().zip([1.0, -1.0]).filter(|(end, _)| end.arm != Vector2::zeros()) {
+            if let Some(body) = end.frame.body() {
+                let (value, length) = (sign * axis.dot(&end.arm), end.arm.norm());
+                self.turns.push(Turn { row, angle: turning.of_body(body), value, length });
+            }
         }
+        let bodies = ends.map(|end| end.frame.body().map(BodyId::index));
         let (value, length) = (axis.dot(&between), between.norm());
-        self.swings.push(Swing { row, guide, block, normal: rot90(axis), value, length });
+        self.swings.push(Swing { row, angle: turning, bodies, normal: rot90(axis), value, length });
     }
 
     /// The change of the Jacobian along a vector: the matrix of D2 F[along, .].
@@ -117,27 +124,20 @@ impl Curvature {
         let size = along.len();
         let mut change = DMatrix::zeros(size, size);
         for turn in &self.turns {
-            let (own, other) = turn.angles();
-            let entry = -turn.value * (along[own] - other.map_or(0.0, |other| along[other]));
-            change[(turn.row, own)] += entry;
-            if let Some(other) = other {
-                change[(turn.row, other)] -= entry;
-            }
+            let entry = -turn.value * turn.angle.along(along);
+            turn.angle.0.iter().for_each(|&(at, factor)| change[(turn.row, at)] += entry * factor);
         }
         for swing in &self.swings {
-            let angle = 3 * swing.guide + 2;
-            let mut moved = -Vector2::new(along[3 * swing.guide], along[3 * swing.guide + 1]);
-            if let Some(block) = swing.block {
-                moved += Vector2::new(along[3 * block], along[3 * block + 1]);
+            let turned = swing.angle.along(along);
+            let mut moved = Vector2::zeros();
+            for (body, sign) in swing.ends() {
+                moved += Vector2::new(along[3 * body], along[3 * body + 1]) * sign;
+                (0..2).for_each(|axis| {
+                    change[(swing.row, 3 * body + axis)] += sign * swing.normal[axis] * turned;
+                });
             }
-            change[(swing.row, angle)] += swing.normal.dot(&moved) - swing.value * along[angle];
-            for axis in 0..2 {
-                let entry = swing.normal[axis] * along[angle];
-                change[(swing.row, 3 * swing.guide + axis)] -= entry;
-                if let Some(block) = swing.block {
-                    change[(swing.row, 3 * block + axis)] += entry;
-                }
-            }
+            let entry = swing.normal.dot(&moved) - swing.value * turned;
+            swing.angle.0.iter().for_each(|&(at, factor)| change[(swing.row, at)] += entry * factor);
         }
         for distance in &self.distances {
             distance.add_change(along, &mut change);
@@ -148,12 +148,12 @@ impl Curvature {
     /// Adds bounds of |D2 F[u, v]| for all |u| <= `one` and |v| <= `other`, row by row.
     pub(super) fn add_second(&self, one: &DVector<f64>, other: &DVector<f64>, bounds: &mut DVector<f64>) {
         for turn in &self.turns {
-            bounds[turn.row] += turn.value.abs() * turn.angle(one) * turn.angle(other);
+            bounds[turn.row] += turn.value.abs() * turn.angle.greatest(one) * turn.angle.greatest(other);
         }
         for swing in &self.swings {
             let [u, v] = [one, other].map(|vector| swing.moved(vector));
             let across = |moved: Vector2<f64>| swing.normal.abs().dot(&moved);
-            let [phi, psi] = [one, other].map(|vector| vector[3 * swing.guide + 2]);
+            let [phi, psi] = [one, other].map(|vector| swing.angle.greatest(vector));
             bounds[swing.row] += across(u) * psi + across(v) * phi + swing.value.abs() * phi * psi;
         }
         for distance in &self.distances {
@@ -173,11 +173,12 @@ impl Curvature {
         bounds: &mut DVector<f64>,
     ) {
         for turn in &self.turns {
-            bounds[turn.row] += factor * turn.length * turn.angle(one).powi(2) * turn.angle(other);
+            bounds[turn.row] +=
+                factor * turn.length * turn.angle.greatest(one).powi(2) * turn.angle.greatest(other);
         }
         for swing in &self.swings {
             let [u, v] = [one, other].map(|vector| swing.moved(vector).norm());
-            let [phi, psi] = [one, other].map(|vector| vector[3 * swing.guide + 2]);
+            let [phi, psi] = [one, other].map(|vector| swing.angle.greatest(vector));
             bounds[swing.row] +=
                 factor * (2.0 * u * phi * psi + v * phi * phi + (swing.length + u) * phi * phi * psi);
         }
@@ -252,23 +253,47 @@ impl Distance {
     }
 }
 
-impl Turn {
-    /// The places of both angles in a vector of (x, y, angle) of every body.
-    fn angles(&self) -> (usize, Option<usize>) {
-        (3 * self.body + 2, self.against.map(|against| 3 * against + 2))
+impl Angle {
+    /// So many times the angle of each of two frames; ground does not turn.
+    pub(super) fn sum(parts: [(Frame, f64); 2]) -> Self {
+        Self(parts.map(|(frame, factor)| match frame.body() {
+            Some(body) => (3 * body.index() + 2, factor),
+            None => (2, 0.0),
+        }))
     }
 
-    /// The greatest relative rotation.
-    fn angle(&self, greatest: &DVector<f64>) -> f64 {
-        let (own, other) = self.angles();
-        greatest[own] + other.map_or(0.0, |other| greatest[other])
+    /// The angle of a body against this one.
+    fn of_body(self, body: BodyId) -> Self {
+        let own = 3 * body.index() + 2;
+        let mut parts = self.0.map(|(at, factor)| (at, -factor));
+        let place = parts.iter().position(|(at, factor)| *at == own && *factor != 0.0);
+        let place = place.or_else(|| parts.iter().position(|(_, factor)| *factor == 0.0));
+        // One of both parts is that of the body, or none.
+        if let Some(place) = place {
+            parts[place] = (own, parts[place].1 + 1.0);
+        }
+        Self(parts)
+    }
+
+    /// Its value along a vector.
+    fn along(&self, along: &DVector<f64>) -> f64 {
+        self.0.iter().map(|(at, factor)| factor * along[*at]).sum()
+    }
+
+    /// The greatest value, where no entry of a vector is greater than these.
+    fn greatest(&self, greatest: &DVector<f64>) -> f64 {
+        self.0.iter().map(|(at, factor)| factor.abs() * greatest[*at]).sum()
     }
 }
 
 impl Swing {
+    /// The bodies at its ends, each with the sign of its place in m.
+    fn ends(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.bodies.iter().zip([1.0, -1.0]).filter_map(|(body, sign)| Some(((*body)?, sign)))
+    }
+
     /// The greatest change of both components of m.
     fn moved(&self, greatest: &DVector<f64>) -> Vector2<f64> {
-        let of = |body: usize| Vector2::new(greatest[3 * body], greatest[3 * body + 1]);
-        of(self.guide) + self.block.map_or(Vector2::zeros(), of)
+        self.ends().map(|(body, _)| Vector2::new(greatest[3 * body], greatest[3 * body + 1])).sum()
     }
 }

@@ -329,11 +329,16 @@ fn linkage(mechanism: &Mechanism) -> Vec<f64> {
                 numbers.extend(attachment(second));
             }
             JointKind::Slider(slider) => {
-                let turns = f64::from(u8::from(slider.kind == SliderKind::Pin));
-                numbers.extend([turns, frame(slider.block), frame(slider.guide)]);
+                let is = |so: bool| f64::from(u8::from(so));
+                numbers.extend([is(slider.kind == SliderKind::Pin), is(slider.sticks)]);
+                numbers.extend([frame(slider.block), frame(slider.guide)]);
                 numbers.extend([slider.at.x, slider.at.y, slider.tangent.x, slider.tangent.y]);
                 numbers.push(slider.contacts.len() as f64);
                 numbers.extend(slider.round.iter().flat_map(|round| round.centre));
+                if slider.sticks {
+                    numbers.push(slider.height);
+                    numbers.extend(slider.round.iter().map(|round| round.radius));
+                }
             }
         }
     }

@@ -1,16 +1,16 @@
 //! The joint equations: their residuals at given poses, and their Jacobian.
 //!
 //! A hinge gives two equations (its two points coincide), a block or guided slider two (the middle of the
-//! block stays on the guide's centre line; no relative rotation), a pin in a slot or a disc on a disc one. Rows of length are
-//! divided by the size of the mechanism, and displacements are counted in it, so that all numbers are of
+//! block stays on the guide's centre line; no relative rotation), a pin in a slot or a disc on a disc one, and what sticks one more,
+//! behind all others. Rows of length are divided by the size of the mechanism, and displacements are counted in it, so that all numbers are of
 //! order one.
 
-use super::curvature::{Curvature, End};
+use super::curvature::{Angle, Curvature, End};
 use super::{Pose, middle_points, moved, round_ends, turned};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, length, rot90};
-use crate::model::SliderKind;
+use crate::model::{Round, SliderKind};
 use nalgebra::{DMatrix, DVector, Vector2};
 
 /// One scalar equation: its residual and its derivatives with respect to the poses.
@@ -98,6 +98,59 @@ impl<'m, T: Real> Rows<'m, T> {
                 JointKind::Slider(slider) => self.slider(id, slider),
             }
         }
+        for (joint, slider) in self.mechanism.sticking() {
+            match &slider.round {
+                None => self.sticks(joint, slider),
+                Some(round) => self.rolls(joint, slider, round),
+            }
+        }
+    }
+
+    /// What does not slip on a straight face: `u . (block - guide) + R (angle of the block - angle of the guide)` is as drawn.
+    fn sticks(&mut self, joint: JointId, slider: &Slider<T>) {
+        let [block, guide] = middle_points(slider);
+        let before = self.list.len();
+        self.distance(Some(joint), [&block, &guide], self.direction(slider), Some(slider.guide));
+        let rim = slider.rim() / self.size();
+        let turned = self.angle(slider.block) - self.angle(slider.guide);
+        if let Some(row) = self.list.get_mut(before) {
+            row.residual += rim * turned;
+            add_angle(row, slider.block, rim);
+            add_angle(row, slider.guide, -rim);
+        }
+    }
+
+    /// A disc that rolls on a disc: the line between both centres has turned by `psi = (R_B theta_B + R_A theta_A)/(R_B + R_A)`,
+    /// with a negative `R_A` of a hole. With the drawn line turned so, `rot90(line) . (C_B - C_A)` vanishes.
+    fn rolls(&mut self, joint: JointId, slider: &Slider<T>, round: &Round<T>) {
+        if self.leaves_out(Some(joint)) {
+            return;
+        }
+        let radii = [slider.rim(), if round.inside { -round.radius } else { round.radius }];
+        let parts = radii.map(|radius| radius / (radii[0] + radii[1]));
+        let ends = round_ends(slider, round);
+        let psi =
+            ends.iter().zip(parts).fold(T::zero(), |psi, (end, part)| psi + part * self.angle(end.frame));
+        let drawn = ends[0].position - ends[1].position;
+        let axis = rot90(Pose::new(Vector2::zeros(), psi).turned(drawn / length(drawn)));
+        let places = ends.each_ref().map(|end| moved(self.mechanism, self.poses, end));
+        let between = places[0] - places[1];
+        let residual = axis.dot(&between) / self.size();
+        let mut row = Row { joint: Some(joint), is_angle: false, residual, derivatives: Vec::new() };
+        for ((end, place), sign) in ends.iter().zip(places).zip([T::one(), -T::one()]) {
+            self.follow(&mut row, (end.frame, place), axis * sign);
+        }
+        for (end, part) in ends.iter().zip(parts) {
+            add_angle(&mut row, end.frame, part * rot90(axis).dot(&between) / self.size());
+        }
+        let (index, origins) = (self.list.len(), [0, 1].map(|end| self.origin(ends[end].frame, places[end])));
+        let arms = [0, 1].map(|end| self.end(ends[end].frame, places[end]));
+        let scaled = (origins[0] - origins[1]).map(|part| part.middle() / self.mechanism.size);
+        let turning = Angle::sum([0, 1].map(|end| (ends[end].frame, parts[end].middle())));
+        if let Some(curvature) = &mut self.curvature {
+            curvature.along_turning(index, arms, turning, (axis.map(Real::middle), scaled));
+        }
+        self.list.push(row);
     }
 
     fn slider(&mut self, joint: Option<JointId>, slider: &Slider<T>) {
@@ -155,8 +208,13 @@ impl<'m, T: Real> Rows<'m, T> {
 
     /// A place of a frame, with its arm in sizes of the mechanism.
     fn end(&self, frame: Frame, place: Vector2<T>) -> End {
-        let origin = frame.body().map_or(place, |body| self.poses[body.index()].position);
-        End { frame, arm: (place - origin).map(|part| part.middle() / self.mechanism.size) }
+        let arm = place - self.origin(frame, place);
+        End { frame, arm: arm.map(|part| part.middle() / self.mechanism.size) }
+    }
+
+    /// The centre of mass of a frame; of ground the place itself.
+    fn origin(&self, frame: Frame, place: Vector2<T>) -> Vector2<T> {
+        frame.body().map_or(place, |body| self.poses[body.index()].position)
     }
 
     fn coordinates(&mut self, values: &[T]) {
@@ -224,22 +282,23 @@ impl<'m, T: Real> Rows<'m, T> {
     /// the second.
     fn bend(&mut self, ends: [(&Attachment<T>, Vector2<T>); 2], axis: Vector2<T>, axis_frame: Option<Frame>) {
         let (row, size) = (self.list.len(), self.mechanism.size);
+        let arms = ends.map(|(point, place)| self.end(point.frame, place));
+        let from = self.origin(ends[0].0.frame, ends[0].1);
         let Some(curvature) = &mut self.curvature else { return };
-        let poses = self.poses;
-        let scaled = |vector: Vector2<T>| vector.map(|part| part.middle() / size);
-        let origin =
-            |frame: Frame, place: Vector2<T>| frame.body().map_or(place, |body| poses[body.index()].position);
         let axis = axis.map(Real::middle);
-        let [first, second] = ends.map(|(point, place)| End {
-            frame: point.frame,
-            arm: scaled(place - origin(point.frame, place)),
-        });
         match axis_frame.and_then(Frame::body) {
-            None => curvature.along_fixed_axis(row, [first, second], axis),
+            None => curvature.along_fixed_axis(row, arms, axis),
             Some(guide) => {
-                let [(block, place), _] = ends;
-                let between = origin(block.frame, place) - poses[guide.index()].position;
-                curvature.along_guide(row, first, guide.index(), (axis, scaled(between)));
+                let between = from - self.poses[guide.index()].position;
+                let scaled = between.map(|part| part.middle() / size);
+                // The arm of the guide turns with the axis.
+                let ends = [arms[0], End { frame: Frame::Body(guide), arm: Vector2::zeros() }];
+                curvature.along_turning(
+                    row,
+                    ends,
+                    Angle::sum([(ends[1].frame, 1.0), (Frame::Ground, 0.0)]),
+                    (axis, scaled),
+                );
             }
         }
     }

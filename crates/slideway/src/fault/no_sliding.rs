@@ -21,6 +21,8 @@ pub enum NoSliding {
     Never,
     /// The drives keep it at rest while the rest moves.
     Stands,
+    /// It is at rest and may lift off, stick or begin to slide.
+    Starts,
 }
 
 impl NoSliding {
@@ -34,7 +36,7 @@ impl NoSliding {
             Self::Here => format!(
                 "whether it sticks or slips is decided by the forces, which is not computed: change the rates a little; {without}"
             ),
-            Self::Never | Self::Stands => format!(
+            Self::Never | Self::Stands | Self::Starts => format!(
                 "no motion of the mechanism makes it turn: its couple may be anything up to r |R|, so that the answer is a range, which only `{}`, `drive`, `sweep` and `map` compute, for one such hinge alone beside at most 12 contacts; {without}",
                 face.question("solve")
             ),
@@ -57,6 +59,11 @@ impl NoSliding {
             ),
             Self::Never => format!(
                 "no motion of the mechanism makes it slide, so friction there only holds: {}; to leave that friction out write `mu = 0` there",
+                hold(face)
+            ),
+            Self::Starts => format!(
+                "it may stick, begin to slide or lift off: `{}`, `drive`, `limits`, `sweep` and `map` have all states, as far as what else has friction slides; {}",
+                face.question("solve"),
                 hold(face)
             ),
             Self::Stands => format!(

@@ -343,6 +343,27 @@ impl KineticEquations {
         [columns.swap_remove(0), columns.remove(0)]
     }
 
+    /// The unknowns with these friction forces at both faces of each contact and these accelerations of gaps, after a step of
+    /// iterative refinement. It takes out what rounding has left of great forces that cancel where contacts are open.
+    pub(crate) fn refined(
+        &self,
+        unknowns: &DVector<f64>,
+        frictions: impl Iterator<Item = [f64; 2]>,
+        gaps: impl Iterator<Item = (ContactId, f64)>,
+    ) -> DVector<f64> {
+        let mut left = self.load.clone();
+        for (columns, faces) in self.friction.iter().zip(frictions) {
+            columns.iter().zip(faces).for_each(|(column, friction)| left.axpy(friction, column, 1.0));
+        }
+        for (contact, acceleration) in gaps {
+            if let Some(place) = self.layout.reaction(Reaction::Normal(contact)) {
+                left[place] += acceleration;
+            }
+        }
+        left.gemv(-1.0, self.factorization.matrix(), unknowns, 1.0);
+        unknowns + self.factorization.solve(&[&left]).remove(0)
+    }
+
     /// The unknowns with every component set to zero that is below the rounding errors of the solution.
     pub fn without_noise(&self, unknowns: &DVector<f64>) -> DVector<f64> {
         self.factorization.without_noise(unknowns)
@@ -393,9 +414,14 @@ impl SlidingRow {
         self.0.times(unknowns)
     }
 
+    /// The part of the velocities in the acceleration of sliding (m/s^2).
+    pub(crate) fn of_velocities(&self) -> f64 {
+        -self.0.right_hand_side
+    }
+
     /// The acceleration of sliding that belongs to the unknowns (m/s^2), the velocities' part included.
     pub(crate) fn acceleration(&self, unknowns: &DVector<f64>) -> f64 {
-        self.0.times(unknowns) - self.0.right_hand_side
+        self.change(unknowns) + self.of_velocities()
     }
 }
 

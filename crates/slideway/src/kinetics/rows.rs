@@ -172,21 +172,42 @@ impl<T: Real> ConstraintRow<T> {
         slider: &Slider<T>,
     ) {
         let tangent = configuration.direction(slider.guide, slider.tangent);
-        let middle = Attachment { frame: slider.block, position: slider.at };
-        let place = configuration.position(mechanism, &middle);
-        self.add(configuration, slider.block, place, tangent);
-        self.add(configuration, slider.guide, place, -tangent);
+        let place = middle(mechanism, configuration, slider);
+        self.add_relative(configuration, slider, (place, tangent));
+    }
+
+    /// The acceleration of the block against the guide at a place, along an axis.
+    fn add_relative(
+        &mut self,
+        configuration: &Configuration<T>,
+        slider: &Slider<T>,
+        (place, axis): (Vector2<T>, Vector2<T>),
+    ) {
+        self.add(configuration, slider.block, place, axis);
+        self.add(configuration, slider.guide, place, -axis);
     }
 }
 
-/// The row of the acceleration of sliding of a joint.
+/// Where the middle of a block is.
+fn middle<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    slider: &Slider<T>,
+) -> Vector2<T> {
+    configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at })
+}
+
+/// The row of the acceleration of sliding of a joint where it rubs, which is the rim of a disc: the normal accelerations of both
+/// bodies from its centre to its rim are normal to u, and so is Coriolis'.
 pub(super) fn sliding<T: Real>(
     mechanism: &Mechanism<T>,
     configuration: &Configuration<T>,
     slider: &Slider<T>,
 ) -> ConstraintRow<T> {
     let mut row = ConstraintRow::empty();
-    row.add_sliding(mechanism, configuration, slider);
+    let tangent = configuration.tangent(mechanism, slider);
+    let place = middle(mechanism, configuration, slider) - rot90(tangent) * slider.rim();
+    row.add_relative(configuration, slider, (place, tangent));
     row
 }
 

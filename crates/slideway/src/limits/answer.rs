@@ -198,8 +198,11 @@ impl Naming {
         let all_examined = is_examined(found);
         let is_empty =
             |one: &CountInterval| !all_examined && !one.continuum && one.solutions + one.gap_states == 0;
-        let count =
-            |((interval, known), tipping): ((&CountInterval, &Knowledge), &Option<Tipping>)| CountLimits {
+        let count = |(index, ((interval, known), tipping)): (
+            usize,
+            ((&CountInterval, &Knowledge), &Option<Tipping>),
+        )| {
+            CountLimits {
                 from: found.same_ends.told(interval.from),
                 to: found.same_ends.told(interval.to),
                 solutions: interval.solutions,
@@ -215,7 +218,9 @@ impl Naming {
                 tipping: tipping.clone(),
                 proven: known.proven.clone(),
                 spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
-            };
+                starts: found.starts.get(index).cloned(),
+            }
+        };
         Direction {
             modes: found
                 .existence
@@ -225,7 +230,7 @@ impl Naming {
                 .zip(speeds)
                 .map(|((index, mode), speeds)| self.mode((mode, found.branches.get(index)), speeds, found))
                 .collect(),
-            counts: found.counts.iter().zip(&found.known).zip(tipping).map(count).collect(),
+            counts: found.counts.iter().zip(&found.known).zip(tipping).enumerate().map(count).collect(),
             without_mode_problem: RangeWithoutProblem::of(found),
             between_faces_at: found.between_faces.values().to_vec(),
         }

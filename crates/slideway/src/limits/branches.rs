@@ -144,6 +144,7 @@ fn modes_found(
         method,
         tried,
         same_ends,
+        starts: Vec::new(),
         between_faces: SingleValues::Impossible,
         branches,
         circles: circles.to_vec(),

@@ -70,6 +70,7 @@ pub(super) fn closed_form(
         method,
         tried: pieces.into_iter().flatten().collect(),
         same_ends: SameEnds::zeros(options.range, [from, to]),
+        starts: Vec::new(),
         between_faces: SingleValues::Impossible,
         branches: Vec::new(),
         circles: Vec::new(),

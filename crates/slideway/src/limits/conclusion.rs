@@ -132,7 +132,9 @@ impl Piece {
 fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
         let without = count.without_solution();
+        let starts = count.starts.as_deref().filter(|_| !count.continuum).map(starts_in_words);
         let verdict = match (count.solutions, count.preload_gap_states) {
+            _ if let Some(starts) = &starts => starts,
             _ if count.continuum => "infinitely many solutions",
             (0, 0) => &without,
             (0, _) => "it moves in a preload gap",
@@ -146,6 +148,15 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
         if is_motion { by_speed(whole, &direction.modes) } else { vec![whole] }
     };
     direction.counts.iter().flat_map(pieces).collect()
+}
+
+/// "it starts in one way: base: closed, sticks", "it can start in 2 ways: tip: closed, sticks, or tip: opens"
+fn starts_in_words(starts: &[String]) -> String {
+    match starts {
+        [] => "it can neither rest nor start".to_owned(),
+        [only] => format!("it starts in one way: {only}"),
+        several => format!("it can start in {} ways: {}", several.len(), several.join(", or ")),
+    }
 }
 
 /// A stretch with one solution, cut where its only coordinate goes over from speeding up to slowing down.

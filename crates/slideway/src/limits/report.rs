@@ -222,6 +222,9 @@ pub struct CountLimits {
     pub proven: Vec<[f64; 2]>,
     /// Where they were sampled: the greatest distance between neighbouring values; else null.
     pub spacing: Option<f64>,
+    /// How each state starts, in words, where contacts that may lift off are at rest; absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub starts: Option<Vec<String>>,
 }
 
 /// How the numbers of solutions in an interval are known.

@@ -85,6 +85,7 @@ impl Scanner<'_> {
             method: Method::Bracketing,
             tried: places.iter().map(|place| place.at).collect(),
             same_ends: self.same_ends(),
+            starts: Vec::new(),
             between_faces: SingleValues::Impossible,
             branches: Vec::new(),
             circles: Vec::new(),

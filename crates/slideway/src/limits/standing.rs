@@ -1,5 +1,6 @@
-//! Numbers of solutions where contacts stand still while the rest moves: their friction is a range, and no mode ends at a
-//! zero of a determinant. The answers at evenly spaced values are compared, and what changes between them is bisected.
+//! Numbers of solutions where contacts do not slide: the friction of those that stand still while the rest moves is a range,
+//! and those at rest that may lift off have states of their own, so that no mode ends at a zero of a determinant. The answers at
+//! evenly spaced values are compared, and what changes between them is bisected.
 
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
 use super::varied::Varied;
@@ -9,6 +10,8 @@ use crate::progress::Work;
 use crate::report::Status;
 use crate::scan::{Scan, Stretch, evenly, samples};
 
+/// Part of a value within which states that give way to each other are not told apart: ten times the tolerance of their inequalities.
+const LEFT_OPEN: f64 = 1e-8;
 /// Steps of the evenly spaced values.
 const STEPS: usize = 100;
 
@@ -18,16 +21,19 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
     if ![from, f64::midpoint(from, to), to].into_iter().any(stands) {
         return None;
     }
-    let counting = Counting { varied, work };
-    let answer = |at: f64| counting.at(at);
+    let answer = |at: f64| of_value(varied, at, work);
     let tried = samples(evenly([from, to], STEPS), work, |at, _| answer(at));
     let same_ends = SameEnds::bisected([from, to]);
     let scan = Scan { answer: &answer, is_like, narrowest: same_ends.within };
-    let (mut counts, mut gaps) = (Vec::new(), Vec::new());
+    let (mut counts, mut starts, mut gaps) = (Vec::new(), Vec::new(), Vec::new());
     for Stretch { from, to, found, .. } in scan.adjoining(&tried) {
         match found {
-            Ok(numbers) if same_ends.are_two(from, to) => counts.push(CountInterval { from, to, ..numbers }),
-            Ok(_) => {}
+            Ok(found) if same_ends.are_two(from, to) && to - from > LEFT_OPEN * from.abs().max(to.abs()) => {
+                counts.push(CountInterval { from, to, ..found.numbers });
+                starts.extend(found.starts);
+            }
+            // About an end of a start both states hold within their tolerance.
+            Ok(_) => counts.last_mut().into_iter().for_each(|last: &mut CountInterval| last.to = to),
             Err(faults) => gaps.push(Gap { from, to, faults }),
         }
     }
@@ -36,6 +42,7 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
         existence: Existence::default(),
         known: vec![known; counts.len()],
         counts,
+        starts,
         gaps,
         method: Method::Bracketing,
         tried: tried.iter().map(|sample| sample.at).collect(),
@@ -46,27 +53,29 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
     })
 }
 
-struct Counting<'c> {
-    varied: &'c Varied,
-    work: Work<'c>,
+/// The answer at a value.
+#[derive(Clone)]
+struct Found {
+    numbers: CountInterval,
+    /// How each state starts, where contacts that may lift off are at rest.
+    starts: Option<Vec<String>>,
 }
 
-impl Counting<'_> {
-    fn at(&self, at: f64) -> Result<CountInterval, Faults> {
-        let report = self.varied.solved(at, self.work)?;
-        Ok(CountInterval {
-            from: at,
-            to: at,
-            solutions: report.solutions.len(),
-            gap_states: report.preload_gap_states.len(),
-            continuum: report.status == Status::Continuum,
-        })
-    }
+fn of_value(varied: &Varied, at: f64, work: Work<'_>) -> Result<Found, Faults> {
+    let report = varied.solved(at, work)?;
+    let numbers = CountInterval {
+        from: at,
+        to: at,
+        solutions: report.solutions.len(),
+        gap_states: report.preload_gap_states.len(),
+        continuum: report.status == Status::Continuum,
+    };
+    Ok(Found { numbers, starts: report.starts() })
 }
 
-fn is_like(one: &Result<CountInterval, Faults>, other: &Result<CountInterval, Faults>) -> bool {
+fn is_like(one: &Result<Found, Faults>, other: &Result<Found, Faults>) -> bool {
     match (one, other) {
-        (Ok(one), Ok(other)) => one.is_like(other),
+        (Ok(one), Ok(other)) => one.numbers.is_like(&other.numbers) && one.starts == other.starts,
         (one, other) => one.is_err() && other.is_err(),
     }
 }

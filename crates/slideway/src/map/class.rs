@@ -35,6 +35,11 @@ pub enum ClassMeaning {
         /// The patterns, in the order of enumeration.
         patterns: Vec<String>,
     },
+    /// How its states start, where contacts that may lift off are at rest.
+    Starts {
+        /// What the joints at rest do in each state, in words.
+        starts: Vec<String>,
+    },
     /// There is one solution, and there are none or several from a factor of friction on that lies in this
     /// range.
     Margin {
@@ -127,6 +132,8 @@ pub(super) struct States {
     pub(super) undecided: bool,
     /// With friction in hinges and for `Motion`: what becomes of the speeds in each solution.
     pub(super) changes: Vec<Vec<SpeedChange>>,
+    /// How each of the solutions starts, where contacts that may lift off are at rest.
+    pub(super) starts: Option<Vec<String>>,
     /// With friction in hinges and for `Margin`: that of an only solution, if it is decided.
     pub(super) margin: Option<ClassMeaning>,
 }
@@ -192,6 +199,11 @@ pub(super) fn class(
         // Whoever asks whether it holds asks no mode problem.
         (ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam | ColourBy::Motion | ColourBy::Hold, _) => {
             number
+        }
+        (ColourBy::Modes, _) if let Some(starts) = &states.starts => {
+            let mut starts = starts.clone();
+            starts.sort_unstable();
+            ClassMeaning::Starts { starts }
         }
         (ColourBy::Modes, _) => {
             let mut patterns = [&states.solutions[..], &states.gaps[..]].concat();

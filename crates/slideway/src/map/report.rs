@@ -266,6 +266,7 @@ fn words(meaning: &ClassMeaning) -> String {
         ClassMeaning::Modes { patterns } => {
             patterns.iter().map(|pattern| spaced(pattern)).collect::<Vec<_>>().join(" | ")
         }
+        ClassMeaning::Starts { starts } => starts.join(" | "),
         ClassMeaning::Margin { from: 1.0, to: Some(to) } => {
             format!("one solution; friction may grow up to {} times", precise(*to))
         }

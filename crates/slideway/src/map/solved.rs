@@ -64,6 +64,7 @@ fn of_report(report: &SolveReport, stages: &Stages) -> States {
         solutions: patterns(&report.solutions),
         gaps: patterns(&report.preload_gap_states),
         continuum: report.status == Status::Continuum,
+        starts: report.starts(),
         tips: !report.rejected.is_empty(),
         undecided: report.status == Status::Unknown,
         changes: report.solutions.iter().map(|solution| changes(solution, stages)).collect(),

@@ -231,6 +231,7 @@ impl<T: Real> Evaluation<'_, T> {
                 inside: round.inside,
             }),
             apart: self.apart(slider, (at, tangent), length),
+            sticks: slider.sticks,
             around: slider.around,
             travel: face.or(slider.travel.map(|travel| travel.map(|limit| self.value(limit)))),
             stops: slider.stops.map(|stop| stop.map(|stop| stop.map(|id| self.value(id)))),

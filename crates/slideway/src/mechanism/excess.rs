@@ -85,7 +85,7 @@ impl Mechanism {
         }
     }
 
-    /// The rows of the joint equations, in their order. Rotations are taken first: they are the same in every
+    /// The rows of the joint equations, in their order, those of what sticks last. Rotations are taken first: they are the same in every
     /// position.
     fn position_rows(&self) -> Vec<Row> {
         let mut rows = Vec::new();
@@ -101,6 +101,7 @@ impl Mechanism {
                 }
             }
         }
+        rows.extend(self.sticking().map(|(_, slider)| self.sticking_row(slider)));
         rows
     }
 
@@ -145,6 +146,15 @@ impl Mechanism {
         let (place, normal) = (slider.at + slider.tangent * offset, rot90(slider.tangent));
         self.displace(&mut row, slider.block, place, normal);
         self.displace(&mut row, slider.guide, place, -normal);
+        row
+    }
+
+    /// Block and guide do not slip where they touch.
+    fn sticking_row(&self, slider: &Slider) -> Row {
+        let mut row = self.row(2);
+        let place = slider.at - rot90(slider.tangent) * slider.rim();
+        self.displace(&mut row, slider.block, place, slider.tangent);
+        self.displace(&mut row, slider.guide, place, -slider.tangent);
         row
     }
 

@@ -152,6 +152,9 @@ pub struct Slider<T = f64> {
     pub round: Option<Round<T>>,
     /// The corners, or the centre of a disc, that are apart from their face in the state, each with its gap in the drawing (m).
     pub apart: Vec<(Vector2<T>, T)>,
+    /// Whether it does not slip in the state, which leaves a motion less to the coordinates; what it does then is decided by the
+    /// forces, as for any contact at rest.
+    pub sticks: bool,
     /// Whether the block surrounds the guide, so that the opposite faces press.
     pub around: bool,
     /// Limits of the displacement (m).

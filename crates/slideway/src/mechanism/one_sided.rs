@@ -13,6 +13,11 @@ impl<T: Real> Slider<T> {
         self.kind == SliderKind::Pin && !self.height.is_zero()
     }
 
+    /// Radius of a disc; zero of other blocks.
+    pub(crate) fn rim(&self) -> T {
+        if self.is_disc() { self.height / T::exactly(2.0) } else { T::zero() }
+    }
+
     /// The centre of the round face of its guide.
     pub fn centre_of(&self, round: &Round<T>) -> Attachment<T> {
         Attachment { frame: self.guide, position: round.centre.into() }
@@ -23,6 +28,14 @@ impl<T> Mechanism<T> {
     /// Returns whether a joint may lift off its face, or is apart from it.
     pub fn may_lift_off(&self, slider: &Slider<T>) -> bool {
         !slider.apart.is_empty() || slider.contacts.iter().any(|contact| self.contacts[contact.index()].opens)
+    }
+
+    /// The joints that do not slip in the state.
+    pub(crate) fn sticking(&self) -> impl Iterator<Item = (JointId, &Slider<T>)> {
+        self.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
+            JointKind::Slider(slider) if slider.sticks => Some((JointId(index), slider)),
+            _ => None,
+        })
     }
 
     /// The contacts that may lift off.
@@ -50,6 +63,16 @@ impl<T> Mechanism<T> {
 const ON_FACE: f64 = 1e-9;
 
 impl Mechanism {
+    /// Lets the joints that do not slip in the state move as the others. The numbers of other joint equations stay as they are, which
+    /// are before theirs.
+    pub(crate) fn let_slip(&mut self) {
+        for joint in &mut self.joints {
+            if let JointKind::Slider(slider) = &mut joint.kind {
+                slider.sticks = false;
+            }
+        }
+    }
+
     /// Refuses blocks that are not on their faces in the drawing, given how far each is off.
     ///
     /// # Errors
@@ -107,19 +130,6 @@ impl<T: Real> Mechanism<T> {
         let Some(first) = apart.first() else { return Ok(()) };
         let contacts = apart.iter().map(|joint| joint.name.to_string()).collect();
         Err(Fault::new(FaultKind::OneSided { question, contacts }, first.place.clone()).into())
-    }
-
-    /// Refuses discs at rest, as they may roll: how their rims begin to slide is not known.
-    ///
-    /// # Errors
-    /// A fault that names them, if there are some.
-    pub(crate) fn check_no_disc_at_rest(&self, rests: impl Fn(usize) -> bool) -> Result<(), Faults> {
-        let is_disc = |contact: &ContactId| {
-            self.slider(self.contacts[contact.index()].joint).is_some_and(Slider::is_disc)
-        };
-        let discs: Vec<ContactId> =
-            self.one_sided().filter(|contact| rests(contact.index()) && is_disc(contact)).collect();
-        self.refuse(&discs, |contacts| FaultKind::DiscAtRest { contacts })
     }
 
     fn refuse(

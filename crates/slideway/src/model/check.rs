@@ -181,8 +181,9 @@ impl Model {
             JointKind::Slider(slider) => slider.contacts.len().max(2),
             JointKind::Hinge(_) => 2,
         };
+        let sticks = |joint: &&Joint| matches!(&joint.kind, JointKind::Slider(slider) if slider.sticks);
         let rows: usize = self.joints.iter().map(equations).sum();
-        rows + self.coordinates.len() > 3 * self.bodies.len()
+        rows + self.joints.iter().filter(sticks).count() + self.coordinates.len() > 3 * self.bodies.len()
     }
 
     /// The contacts of all sliding joints, in the order of the mechanism's.

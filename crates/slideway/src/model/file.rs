@@ -143,6 +143,9 @@ pub(super) struct SliderTable {
     /// What touches, which `schema.rs` has.
     #[cfg_attr(test, schemars(skip))]
     pub(super) closed: Option<Closed>,
+    /// Whether it slips, which `schema.rs` has.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) sticks: Option<bool>,
     /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Option<Direction>,
     /// The ends of a face, which `schema.rs` has.
@@ -206,6 +209,8 @@ pub(super) struct DiscOnDiscTable {
     pub(super) inside: Option<bool>,
     /// `false`: they are apart in the state to be solved. Default: `true`.
     pub(super) closed: Option<bool>,
+    /// `true`: the disc rolls in the state to be solved, so that it needs one coordinate less. Default: `false`.
+    pub(super) sticks: Option<bool>,
 }
 
 /// A contact of a sliding joint, or what all of its contacts have in common.

@@ -93,6 +93,8 @@ struct OnFaceTable {
     radius: Option<Quantity>,
     /// What touches in the state to be solved: `true` (default), `false`, or of a block `["front"]` or `["rear"]`.
     closed: Option<Closed>,
+    /// `true`: it does not slip in the state to be solved (a disc rolls), so that it needs one coordinate less. Default: `false`.
+    sticks: Option<bool>,
     /// Direction of positive sliding along a face without ends: an angle from the x axis, or two points
     /// `["from", "to"]`. The block is on its left.
     along: Option<Direction>,

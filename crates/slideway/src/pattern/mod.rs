@@ -31,7 +31,7 @@ pub(crate) use friction::{Bound, Friction, GuidedCouple, Law, face, without_tipp
 pub(crate) use friction_circle::{Pin, direction};
 pub(crate) use phase::{ContactPhase, HingePhase, JointPhase, Phase};
 pub(crate) use program::{NOTHING, Region};
-pub(crate) use words::sliding_in_words;
+pub(crate) use words::{sliding_in_words, sticking_in_words};
 
 /// The solver gave up, its answer contradicts what is known, or the work is to end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

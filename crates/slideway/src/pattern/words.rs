@@ -26,3 +26,8 @@ pub(crate) fn sliding_in_words(
         if against_what.body().is_some() { format!(" on {}", name(against_what)) } else { String::new() };
     format!("{moving} slides along ({}, {}){place}", against(direction.x, 1.0), against(direction.y, 1.0))
 }
+
+/// "sticks", of a disc that may roll "does not slip".
+pub(crate) fn sticking_in_words(slider: &Slider) -> &'static str {
+    if slider.is_disc() { "does not slip" } else { "sticks" }
+}

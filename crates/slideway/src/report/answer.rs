@@ -1,7 +1,9 @@
 //! The plain answer of `solve`, as one would say it to a colleague.
 
 use super::effort::{self, least_friction, times, times_friction};
-use super::{Contact, Drive, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
+use super::{
+    Contact, Drive, JamImpulse, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status,
+};
 use crate::units::brief;
 
 /// The remedy where a search ended early.
@@ -40,26 +42,29 @@ impl SolveReport {
         }
     }
 
-    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
-    fn start_in_words(&self) -> Option<String> {
-        let starts = |solution: &Solution| {
+    /// What the joints do that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint is at
+    /// rest.
+    pub(crate) fn starts(&self) -> Option<Vec<String>> {
+        let start = |solution: &Solution| {
             let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
             joints.map(|joint| format!("{}: {}", joint.name, joint.mode)).collect::<Vec<_>>().join("; ")
         };
-        if self.at_rest.is_empty() {
-            return None;
-        }
+        (!self.at_rest.is_empty()).then(|| self.solutions.iter().map(start).collect())
+    }
+
+    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
+    fn start_in_words(&self) -> Option<String> {
+        let starts = self.starts()?;
         let unique = if self.every_load_has_one_state == Some(true) {
             " Every load has exactly one state."
         } else {
             ""
         };
-        Some(match (self.status, self.solutions.as_slice()) {
+        Some(match (self.status, starts.as_slice()) {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
-            (Status::One, [only]) => format!("It starts in one way. {}.{unique}", starts(only)),
+            (Status::One, [only]) => format!("It starts in one way. {only}.{unique}"),
             (Status::Several, several) => {
-                let ways: Vec<String> = several.iter().map(starts).collect();
-                format!("It can start in {} ways. {}.", several.len(), ways.join(". Or "))
+                format!("It can start in {} ways. {}.", several.len(), several.join(". Or "))
             }
             _ => {
                 let also = match self.solutions.len() {
@@ -67,6 +72,30 @@ impl SolveReport {
                     more => format!(" {more} more states are determined."),
                 };
                 format!("The contacts at rest leave their forces open: `hold` has their ranges.{also}")
+            }
+        })
+    }
+
+    /// What a mechanism that jams does instead: "An impulse without collision stops it: afterwards tip is closed, sticks."
+    fn impulse_in_words(&self) -> Option<String> {
+        let after = |impulse: &JamImpulse| {
+            let joints = impulse.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode));
+            let energy = self.model.units.of("J").show(impulse.energy_lost);
+            format!("{} (it takes {energy})", joints.collect::<Vec<_>>().join("; "))
+        };
+        Some(match self.jam_impulses.as_deref()? {
+            [] if self.model.drives > 0 => {
+                "No impulse without collision ends that, either: its drives stall.".to_owned()
+            }
+            [] => return None,
+            [only] => format!("Velocities jump without a collision. Afterwards {}.", after(only)),
+            several => {
+                let ways: Vec<String> = several.iter().map(after).collect();
+                format!(
+                    "Velocities jump without a collision, in one of {} ways. Afterwards {}.",
+                    ways.len(),
+                    ways.join(". Or ")
+                )
             }
         })
     }
@@ -81,10 +110,8 @@ impl SolveReport {
         let Some(margins) = &self.margins else { return self.without_margins() };
         if self.status == Status::None {
             let below = margins.moves_below.map(|below| least_friction(below.factor, below.mu));
-            return below
-                .map(|below| format!("It {} below {below}.", self.what_ends()))
-                .into_iter()
-                .collect();
+            let below = below.map(|below| format!("It {} below {below}.", self.what_ends()));
+            return below.into_iter().chain(self.impulse_in_words()).collect();
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
         let mut sentences = Vec::new();

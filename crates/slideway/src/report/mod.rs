@@ -155,6 +155,10 @@ pub struct SolveReport {
     pub closest_modes: Vec<ClosestMode>,
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
+    /// Where there is no solution while contacts that may lift off slide: the impulses without collision that can act instead, of
+    /// which none may be possible where drives prescribe the motion. Absent elsewhere, and where margins are not asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub jam_impulses: Option<Vec<JamImpulse>>,
     /// By which factors all friction may grow; absent if that was not computed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margins: Option<Margins>,
@@ -181,6 +185,32 @@ pub struct SolveReport {
     pub influence: InfluenceSummary,
     /// Greatest factor by which rounding in the kinetic equations may be amplified.
     pub condition: f64,
+}
+
+/// An impulse at a jam: velocities jump without a collision, until what wedges has stopped.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct JamImpulse {
+    /// What each sliding joint does afterwards.
+    pub joints: Vec<JointMode>,
+    /// The impulses of all contacts.
+    pub contacts: Vec<ContactImpulse>,
+    /// The chosen coordinates, with their rates afterwards.
+    pub coordinates: Vec<CoordinateState>,
+    /// The kinetic energy that it takes (J).
+    pub energy_lost: f64,
+}
+
+/// The impulse of a contact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct ContactImpulse {
+    /// The contact.
+    pub name: String,
+    /// Impulse of its normal force (N s).
+    pub normal_impulse: f64,
+    /// Impulse of its friction, positive against the direction of positive sliding on the block (N s).
+    pub friction_impulse: f64,
 }
 
 /// A summary of a model.

@@ -7,6 +7,7 @@ use super::equilibrium::{Balance, Residual};
 use super::found::SearchFound;
 use super::friction::friction;
 use super::parts::contact_couples;
+use super::resting::Resting;
 use super::stages::Stages;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
 use super::words::joint_mode_in_words;
@@ -16,7 +17,7 @@ use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
-use crate::kinetics::{KineticEquations, Reaction, gap_acceleration};
+use crate::kinetics::{KineticEquations, Opening, Reaction, gap_acceleration};
 use crate::law::tips;
 use crate::mechanism::{JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
@@ -89,7 +90,11 @@ impl<'a> Answer<'a> {
         let mut tipping = Tipped::default();
         let mut states = States::default();
         let mut keep = |state: &State<'_>| self.keep(state, &mut states, &mut tipping);
-        lists.solutions.iter().for_each(|solution| keep(&regular(solution, &pressed(&solution.pattern))));
+        for solution in lists.solutions.iter() {
+            let pattern = pressed(&solution.pattern);
+            let normal_force = Resting::sliding(self).refined_forces(&pattern, &solution.normal_force);
+            keep(&State { normal_force: &normal_force, ..regular(solution, &pattern) });
+        }
         let singular: Vec<SingularMode> =
             lists.singular.iter().map(|mode| self.without_tipping(mode)).collect();
         singular.iter().filter_map(point).for_each(|state| keep(&state));
@@ -163,6 +168,7 @@ impl<'a> Answer<'a> {
             rejected: Vec::new(),
             closest_modes: Vec::new(),
             jammed_groups: Vec::new(),
+            jam_impulses: None,
             margins: None,
             margins_missing: None,
             unique_at_least: None,
@@ -240,10 +246,30 @@ impl<'a> Answer<'a> {
         }
     }
 
-    /// All unknowns of the equations in a state.
+    /// All unknowns of the equations in a state, without their rounding.
     pub(super) fn unknowns(&self, state: &State<'_>) -> DVector<f64> {
-        let of_contacts = self.influence.unknowns(&self.friction(state), state.normal_force);
-        self.equations.without_noise(&(of_contacts + self.influence.of_couples(state.hinges)))
+        self.equations.without_noise(&self.refined(state))
+    }
+
+    /// All unknowns of the equations in a state: where contacts lift off, whose forces while they are closed cancel, refined.
+    pub(super) fn refined(&self, state: &State<'_>) -> DVector<f64> {
+        let friction = self.friction(state);
+        let of_contacts = self.influence.unknowns(&friction, state.normal_force);
+        let unknowns = of_contacts + self.influence.of_couples(state.hinges);
+        if !self.can_be_refined(state.pattern) {
+            return unknowns;
+        }
+        let faces = friction.iter().map(|friction| [friction.positive_face, friction.negative_face]);
+        let openings = self.influence.openings.iter();
+        let gaps = openings.map(|Opening { contact, acceleration, .. }| {
+            (ContactId(*contact), (-state.normal_force[*contact]).max(0.0) * acceleration)
+        });
+        self.equations.refined(&unknowns, faces, gaps)
+    }
+
+    /// Whether contacts lift off, and what others carry does not depend on how they share it.
+    pub(super) fn can_be_refined(&self, pattern: &[ContactState]) -> bool {
+        self.mechanism.opening(pattern).next().is_some() && self.mechanism.excess.is_empty()
     }
 
     /// Whether bounds of the exact numbers prove that a guided slider tips; where there are none it is not

@@ -56,7 +56,6 @@ pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_cha
 pub(crate) use mode_problem::{ProblemData, Sliding, sides, sliding_signs};
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
-pub(crate) use resting::sliding_or_resting;
 pub(crate) use sharing::load_sharing;
 pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
@@ -79,7 +78,7 @@ use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::progress::{Callback, Progress};
-use crate::report::{SolveReport, finite};
+use crate::report::{SolveReport, Status, finite};
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -150,12 +149,6 @@ pub fn solve_with(
     let mechanism = Mechanism::new(model)?;
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
-    if let Some(mut report) = resting::of_mechanism(&mechanism, &configuration)? {
-        report.open.extend(taken_at_the_middle(&model.ranges()?));
-        report.rates_not_given = rates_not_given(model);
-        report.suit_units();
-        return finite(report);
-    }
     let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
     let state = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
     answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
@@ -185,8 +178,11 @@ fn answered(
 ) -> Result<SolveReport, Faults> {
     let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
     if has_rough_hinges || !stages.standing.is_empty() {
+        let at_rest = resting::may_lift_off(&stages.mechanism, &stages.standing);
         let mut report = if has_rough_hinges {
             blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
+        } else if at_rest {
+            resting::of_contacts(stages, equations)?
         } else {
             standing::of_contacts(stages, equations)?
         };
@@ -194,7 +190,7 @@ fn answered(
             report.open.extend(taken_at_the_middle(ranges));
         }
         report.rates_not_given = rates_not_given(model);
-        if options.margins {
+        if options.margins && !at_rest {
             from_rest::add(&mut report, model, progress);
         }
         report.suit_units();
@@ -226,6 +222,9 @@ fn answered(
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok(), &|signs| answer.joint_modes(signs));
         from_rest::add(&mut report, model, progress);
+        if report.status == Status::None {
+            report.jam_impulses = resting::jam_impulses(stages, equations);
+        }
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
     report.suit_units();

@@ -2,6 +2,7 @@
 
 use super::no_sliding::why;
 use super::parts::Parts;
+use super::resting::may_lift_off;
 use super::sharing::check_assembly;
 use super::tolerant::StatesWithinTolerances;
 use crate::configuration::{Configuration, staying};
@@ -34,30 +35,35 @@ pub fn velocity_signs(mechanism: &Mechanism, configuration: &Configuration) -> R
     Ok(signs)
 }
 
-/// Which contacts slide in which sense, and which stand still while the rest moves.
+/// Which contacts slide in which sense, and which do not.
 pub(crate) struct Sliding {
     /// The signs of the sliding velocities; 0 where a contact stands, or has no friction.
     pub(crate) signs: DVector<f64>,
-    /// The contacts with friction that do not slide, now and from now on, because the drives keep them so.
+    /// The contacts with friction that do not slide: those that may lift off, whatever they do then, and of others those that
+    /// the drives keep at rest while the rest moves.
     pub(crate) standing: Vec<ContactId>,
 }
 
 impl Sliding {
     /// # Errors
-    /// A fault for the contacts with friction that do not slide now but may begin to: the forces decide that.
+    /// A fault for the contacts with friction that do not slide now but may begin to, where the forces decide that; not of those
+    /// that may lift off, of which all states are known.
     pub(crate) fn of(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let signs = sliding_signs(mechanism, configuration);
         let still = (0..signs.len()).filter(|&k| signs[k] == 0.0 && mechanism.contacts[k].may_hold());
-        let still: Vec<ContactId> = still.map(ContactId).collect();
+        let (at_rest, still): (Vec<ContactId>, Vec<ContactId>) =
+            still.map(ContactId).partition(|id| mechanism.contacts[id.index()].opens);
         if still.is_empty() {
-            return Ok(Self { signs, standing: still });
+            return Ok(Self { signs, standing: at_rest });
         }
         let joints: Vec<JointId> = still.iter().map(|id| mechanism.contacts[id.index()].joint).collect();
         let is_at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
         let staying = if is_at_rest { Vec::new() } else { staying(mechanism, configuration, &joints)? };
         let stays = |id: &ContactId| staying.contains(&mechanism.contacts[id.index()].joint);
         let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.iter().partition(|id| stays(id));
-        let Some(first) = undefined.first() else { return Ok(Self { signs, standing }) };
+        let Some(first) = undefined.first() else {
+            return Ok(Self { signs, standing: [at_rest, standing].concat() });
+        };
         let first_slides =
             |state: &Configuration| vec![sliding_signs(mechanism, state)[first.index()] != 0.0];
         let why = why(mechanism, configuration, (1, &first_slides)).pop();
@@ -70,7 +76,11 @@ impl Sliding {
 /// # Errors
 /// A fault for them.
 pub(super) fn none_stands(mechanism: &Mechanism, standing: &[ContactId]) -> Result<(), Faults> {
-    if standing.is_empty() { Ok(()) } else { Err(does_not_slide(mechanism, standing, NoSliding::Stands)) }
+    if standing.is_empty() {
+        return Ok(());
+    }
+    let why = if may_lift_off(mechanism, standing) { NoSliding::Starts } else { NoSliding::Stands };
+    Err(does_not_slide(mechanism, standing, why))
 }
 
 /// The fault of contacts that do not slide, at the joint of the first.
@@ -82,7 +92,7 @@ fn does_not_slide(mechanism: &Mechanism, contacts: &[ContactId], why: NoSliding)
     place.map_or_else(|| Fault::general(kind.clone()), |place| Fault::new(kind.clone(), place)).into()
 }
 
-/// The signs of the sliding velocities, 0 where they vanish within rounding.
+/// The signs of the sliding velocities, 0 where they vanish within rounding, and of what sticks.
 pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration) -> DVector<f64> {
     let contacts = (0..mechanism.contacts.len()).map(ContactId);
     let sliding: Vec<f64> =
@@ -92,7 +102,10 @@ pub(crate) fn sliding_signs(mechanism: &Mechanism, configuration: &Configuration
     let greatest = sliding.iter().map(|v| v.abs()).chain(speeds).fold(0.0, f64::max);
     let at_rest = |velocity: f64| velocity.abs() <= AT_REST * greatest;
     let sign = |velocity: &f64| if at_rest(*velocity) { 0.0 } else { velocity.signum() };
-    DVector::from_iterator(sliding.len(), sliding.iter().map(sign))
+    let mut signs = DVector::from_iterator(sliding.len(), sliding.iter().map(sign));
+    let sticking = mechanism.sticking().flat_map(|(_, slider)| &slider.contacts);
+    sticking.for_each(|contact| signs[contact.index()] = 0.0);
+    signs
 }
 
 /// The mode problem of a mechanism, eqs. (6) and (8): its unknowns are the |N_k|.

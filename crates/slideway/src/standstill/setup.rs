@@ -79,9 +79,9 @@ impl Setup {
     pub(super) fn new(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
         original.check_size()?;
-        original.check_no_disc_at_rest(|_| true)?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();
+        mechanism.let_slip();
         configuration.put_misalignments(&mut mechanism)?;
         if !options.hold_drives {
             mechanism.drives.clear();
@@ -163,15 +163,16 @@ impl Setup {
     }
 
     /// The acceleration of a sliding joint or hinge with friction, by its number among these, as a row of those of the
-    /// bodies.
+    /// bodies: of a joint at the face where what may lift off rubs, else in the middle between both faces, `-(W^+ + W^-)/2`.
     pub(crate) fn row(&self, joint: usize) -> RowDVector<f64> {
         let mut row = RowDVector::zeros(self.equations_of_motion());
         match joint.checked_sub(self.sliders.len()) {
             None => {
                 if let Some(&k) = self.sliders[joint].contacts.first() {
                     let [positive, negative] = &self.assembled.friction[k];
+                    let other = if self.mechanism.contacts[k].opens { positive } else { negative };
                     for (column, value) in row.iter_mut().enumerate() {
-                        *value = -f64::midpoint(positive[column], negative[column]);
+                        *value = -f64::midpoint(positive[column], other[column]);
                     }
                 }
             }

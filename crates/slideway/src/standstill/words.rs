@@ -1,18 +1,19 @@
 //! The motion of a sliding joint on release, in words.
 
 use super::setup::{Setup, SlidingJoint};
-use crate::pattern::ContactPhase;
-use crate::pattern::sliding_in_words;
+use crate::pattern::{ContactPhase, sliding_in_words, sticking_in_words};
 
-/// "sticks", "bracket slides along (0, -1)", "tips over base.rear", "lifts off"
+/// "sticks", "does not slip", "bracket slides along (0, -1)", "tips over base.rear", "lifts off"
 pub(super) fn release_in_words(
     setup: &Setup,
     joint: &SlidingJoint,
     contacts: &[ContactPhase],
     slip: i8,
 ) -> String {
-    let slider = setup.mechanism.slider(joint.joint).filter(|_| slip != 0);
-    let slides = slider.map(|slider| sliding_in_words(&setup.mechanism, &setup.configuration, slider, slip));
+    let slider = setup.mechanism.slider(joint.joint);
+    let slides = slider
+        .filter(|_| slip != 0)
+        .map(|slider| sliding_in_words(&setup.mechanism, &setup.configuration, slider, slip));
     let closed =
         |k: &&usize| !setup.mechanism.contacts[**k].opens || contacts[**k] != ContactPhase::PreloadGap;
     let closed: Vec<usize> = joint.contacts.iter().filter(closed).copied().collect();
@@ -22,6 +23,6 @@ pub(super) fn release_in_words(
             let tips = format!("tips over {}", setup.mechanism.contacts[*corner].name);
             slides.map_or(tips.clone(), |slides| format!("{tips}, {slides}"))
         }
-        _ => slides.unwrap_or_else(|| "sticks".to_owned()),
+        _ => slides.unwrap_or_else(|| slider.map_or("sticks", sticking_in_words).to_owned()),
     }
 }

@@ -33,6 +33,7 @@ mod no_sliding;
 mod one_sided;
 mod one_sided_rest;
 mod one_sided_resting;
+mod one_sided_rolling;
 mod one_sided_shapes;
 mod one_sided_systems;
 mod positions;

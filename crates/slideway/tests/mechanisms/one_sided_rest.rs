@@ -103,10 +103,11 @@ fn value(range: Range) -> f64 {
 /// Every state in which something begins to move, and no other.
 #[test]
 fn the_reference_begins_to_move_in_these_states() {
-    // At rest drives are absent.
-    for RestCase { name, system, states } in
-        reference().rest.into_iter().filter(|case| case.system.drives.is_empty())
-    {
+    // At rest drives are absent, and so are velocities.
+    let rests = |case: &RestCase| {
+        case.system.drives.is_empty() && case.system.bodies.iter().all(|body| body.velocity == [0.0; 3])
+    };
+    for RestCase { name, system, states } in reference().rest.into_iter().filter(rests) {
         let found = held(&system.text(), &[], &HoldOptions::default());
         assert!(found.undecided == 0 && !found.holds, "{name}");
         assert_eq!(found.releases.len(), states.len(), "{name}: {:#?}", found.releases);
@@ -308,40 +309,67 @@ fn a_peg_jams_outside_the_parallelogram() {
     let Peg { diameter, depth, mu, points } = reference().peg;
     let radius = diameter / 2.0;
     for PegPoint { Fx_over_Fz: across, M_over_rFz: moment, jams } in points {
-        let text = |pair: [&str; 2]| {
-            let joint = |name: &str| {
-                let (x, along) = if name.ends_with("left") { (-radius, -90) } else { (radius, 90) };
-                if name.starts_with("tip") {
-                    format!(
-                        "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = [{x}, {}]\nalong = \"{along} deg\"\nmu = {mu}\n",
-                        -depth
-                    )
-                } else {
-                    format!(
-                        "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"ground\"\nguide = \"peg\"\nat = [{x}, 0]\nalong = \"{} deg\"\nmu = {mu}\n",
-                        -along
-                    )
-                }
-            };
-            format!(
-                "[points]\nT = [0, {}]\n[bodies.peg]\npoints = [\"T\"]\nmass = 1\nmoment_of_inertia = 1e-4\ncentre_of_mass = \"T\"\n\
-                 {}{}[loads.F]\ntype = \"force\"\nat = \"peg.T\"\ncomponents = [{across}, -1]\n\
-                 [loads.M]\ntype = \"torque\"\nbody = \"peg\"\nmoment = {}\n[coordinates.depth]\ny = \"peg.T\"\n",
-                -depth,
-                joint(pair[0]),
-                joint(pair[1]),
-                moment * radius
-            )
-        };
-        let pairs = [
-            ["tip_left", "mouth_right"],
-            ["tip_right", "mouth_left"],
-            ["tip_left", "mouth_left"],
-            ["tip_right", "mouth_right"],
-        ];
-        let holds = pairs.map(|pair| held(&text(pair), &[], &HoldOptions::default()).holds);
-        assert_eq!(holds.contains(&true), jams, "{across} {moment}: {holds:?}");
+        assert_eq!(peg_is_held([radius, depth, mu], [across, moment]), jams, "{across} {moment}");
     }
+}
+
+/// Whether a peg of this radius and depth is held under the loads (across, -1) and a moment (parts of the radius) at the centre
+/// of its tip, by some pair of corners that can touch together.
+fn peg_is_held([radius, depth, mu]: [f64; 3], [across, moment]: [f64; 2]) -> bool {
+    let text = |pair: [&str; 2]| {
+        let joint = |name: &str| {
+            let (x, along) = if name.ends_with("left") { (-radius, -90) } else { (radius, 90) };
+            if name.starts_with("tip") {
+                format!(
+                    "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = [{x}, {}]\nalong = \"{along} deg\"\nmu = {mu}\n",
+                    -depth
+                )
+            } else {
+                format!(
+                    "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"ground\"\nguide = \"peg\"\nat = [{x}, 0]\nalong = \"{} deg\"\nmu = {mu}\n",
+                    -along
+                )
+            }
+        };
+        format!(
+            "[points]\nT = [0, {}]\n[bodies.peg]\npoints = [\"T\"]\nmass = 1\nmoment_of_inertia = 1e-4\ncentre_of_mass = \"T\"\n\
+             {}{}[loads.F]\ntype = \"force\"\nat = \"peg.T\"\ncomponents = [{across}, -1]\n\
+             [loads.M]\ntype = \"torque\"\nbody = \"peg\"\nmoment = {}\n[coordinates.depth]\ny = \"peg.T\"\n",
+            -depth,
+            joint(pair[0]),
+            joint(pair[1]),
+            moment * radius
+        )
+    };
+    let pairs = [
+        ["tip_left", "mouth_right"],
+        ["tip_right", "mouth_left"],
+        ["tip_left", "mouth_left"],
+        ["tip_right", "mouth_right"],
+    ];
+    pairs.iter().any(|pair| held(&text(*pair), &[], &HoldOptions::default()).holds)
+}
+
+/// Over 1,000 loads it jams exactly outside the parallelogram `|F_x/F_z| < 1/mu`, `|M/(r F_z) + mu (1 + lambda) F_x/F_z| < lambda`
+/// with `lambda = depth/(2 r mu)` (Whitney 1982).
+#[test]
+fn a_peg_jams_exactly_outside_the_parallelogram_over_many_loads() {
+    let Peg { diameter, depth, mu, .. } = reference().peg;
+    let lambda = depth / (diameter * mu);
+    let mut jams = 0;
+    for number in 0..1000 {
+        // Spread evenly over a rectangle around the parallelogram.
+        let [u, v] = [0.754_877_666, 0.569_840_291].map(|step| (f64::from(number) * step).fract());
+        let (across, moment) = ((2.0 * u - 1.0) * 1.3 / mu, (2.0 * v - 1.0) * 2.4 * lambda);
+        let slacks = [1.0 / mu - across.abs(), lambda - (moment + mu * (1.0 + lambda) * across).abs()];
+        let is_inside = slacks.iter().all(|slack| *slack > 0.0);
+        if slacks.iter().all(|slack| slack.abs() > 1e-6) {
+            let is_held = peg_is_held([diameter / 2.0, depth, mu], [across, moment]);
+            assert_eq!(is_held, !is_inside, "{across} {moment}");
+            jams += usize::from(is_held);
+        }
+    }
+    assert!((400..900).contains(&jams), "{jams}");
 }
 
 /// A peg is wedged iff the line through both of its corners is within both friction cones.

@@ -10,6 +10,7 @@ use crate::random_mechanisms::cases;
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
+use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
@@ -275,8 +276,6 @@ proptest! {
                 contact.mu = 0.0;
             } else if contact.kind == "sliding" && (k == 0 || !slides) {
                 contact.kind = "resting".to_owned();
-                // Discs are refused at rest.
-                (contact.radius, contact.centre) = (0.0, None);
                 contact.mu_static = Some(contact.mu * (1.0 + 0.2 * (1.0 + numbers[k]))).filter(|_| more == 0);
             }
         }
@@ -468,15 +467,73 @@ fn what_else_rests_is_refused() {
     assert!(matches!(kinds.as_slice(), [FaultKind::OneSidedInExcess { .. }]), "{faults}");
 }
 
-/// A disc at rest may roll; nothing is said of it.
-#[test]
-fn discs_at_rest_are_refused() {
-    let text = "gravity = [0, -9.81]\n[points]\nC = [0, 0.1]\n[bodies.disc]\npoints = [\"C\"]\nmass = 1\nmoment_of_inertia = 0.005\n\
-                centre_of_mass = \"C\"\n[joints.foot]\ntype = \"disc_on_face\"\nblock = \"disc\"\ncentre = \"C\"\nradius = 0.1\n\
-                along = 0\nmu = 0.3\n[coordinates.x]\nx = \"disc.C\"\nrate = 0\n[coordinates.turn]\nrotation = \"disc\"\nrate = 0\n";
-    let model = Model::parse(text).unwrap();
-    for faults in [solve(&model).unwrap_err(), hold(&model, &HoldOptions::default()).unwrap_err()] {
-        let kind = &faults.sorted()[0].kind;
-        assert!(matches!(kind, FaultKind::DiscAtRest { contacts } if contacts == &["foot"]), "{faults}");
+/// A disc on an incline: `x'' = g sin/(1 + k)` with `J = k m R^2` where it rolls, which needs `mu_static >= tan k/(1 + k)`;
+/// else `x'' = g (sin - mu cos)`. Without static friction, `solve` and `hold` say the same.
+#[rstest]
+#[case(0.5)]
+#[case(1.0)]
+fn a_disc_rolls_or_slips_down_an_incline(#[case] k: f64) {
+    let slope = 0.6_f64.atan();
+    let (sin, cos) = slope.sin_cos();
+    let least = 0.6 * k / (1.0 + k);
+    for (mu, rolls) in [(least * (1.0 - 1e-6), false), (least * (1.0 + 1e-6), true)] {
+        let text = disc(slope, k, mu);
+        let report = report_on(&text);
+        let [only] = report.solutions.as_slice() else { panic!("{report:?}") };
+        let [along, turn] = [0, 1].map(|index| only.coordinates[index].acceleration);
+        let expected = if rolls { sin / (1.0 + k) } else { sin - mu * cos };
+        assert!((along + GRAVITY * expected).abs() < 1e-9, "{along}");
+        assert!(!rolls || (turn * 0.1 + along).abs() < 1e-9, "{turn}");
+        let starts = if rolls { "foot: closed, does not slip" } else { "foot: closed, disc slides along" };
+        assert!(report.answer().contains(starts), "{}", report.answer());
+        assert_eq!(report.every_load_has_one_state, Some(true));
+        let held = hold(&Model::parse(&text).unwrap(), &HoldOptions::default()).unwrap();
+        let [release] = held.releases.as_slice() else { panic!("{:?}", held.releases) };
+        assert_eq!(release.joints[0].slip != 0, !rolls);
+        let found = release.coordinates[0].acceleration;
+        let middle = f64::midpoint(found.least.unwrap(), found.greatest.unwrap());
+        assert!((middle - along).abs() < 1e-7, "{found:?}");
+        let moves = if rolls {
+            "It does not hold: it starts to move"
+        } else {
+            "It does not hold: it starts to slide"
+        };
+        assert!(held.answer().starts_with(moves), "{}", held.answer());
     }
+}
+
+/// A disc of 1 kg and radius 0.1 m with `J = k m R^2` on a plane that rises to the right.
+fn disc(slope: f64, k: f64, mu: f64) -> String {
+    let [x, y] = [-0.1 * slope.sin(), 0.1 * slope.cos()];
+    format!(
+        "gravity = {GRAVITY}\n[points]\nC = [{x}, {y}]\n[bodies.disc]\npoints = [\"C\"]\nmass = 1\nmoment_of_inertia = {}\n\
+         centre_of_mass = \"C\"\n[joints.foot]\ntype = \"disc_on_face\"\nblock = \"disc\"\ncentre = \"C\"\nradius = 0.1\n\
+         along = {slope}\nmu = {mu}\n[coordinates.along]\nslide = \"foot\"\nrate = 0\n[coordinates.turn]\nrotation = \"disc\"\nrate = 0\n",
+        0.01 * k
+    )
+}
+
+const GRAVITY: f64 = 9.81;
+
+/// The torque that a disc in a V of half-angle alpha takes before it turns: `mu m g R/((1 + mu^2) sin(alpha))`; of the reference.
+#[test]
+fn a_disc_in_a_v_block_takes_the_torque_of_the_closed_form() {
+    let face = |name: &str, along: &str| {
+        format!(
+            "[joints.{name}]\ntype = \"disc_on_face\"\nblock = \"disc\"\ncentre = \"C\"\nradius = 0.05\nalong = \"{along}\"\nmu = 0.25\n"
+        )
+    };
+    let text = format!(
+        "gravity = {GRAVITY}\n[points]\nC = [0, 0]\n[bodies.disc]\npoints = [\"C\"]\nmass = 4\nmoment_of_inertia = 0.005\n\
+         centre_of_mass = \"C\"\n{}{}[loads.turn]\ntype = \"torque\"\nbody = \"disc\"\nmoment = 1\n\
+         [coordinates.spin]\nrotation = \"disc\"\n",
+        face("left", "-45 deg"),
+        face("right", "45 deg")
+    );
+    let report = hold(&Model::parse(&text).unwrap(), &HoldOptions::default().load("turn")).unwrap();
+    let held = report.load.unwrap().held;
+    let [range] = held.as_slice() else { panic!("{held:?}") };
+    let torque = 0.25 * 4.0 * GRAVITY * 0.05 / (1.0 + 0.25 * 0.25) / 45_f64.to_radians().sin();
+    assert!((torque - 0.652_867_531_6).abs() < 1e-9);
+    assert!((range.greatest.unwrap() - torque).abs() < 1e-9 && (range.least.unwrap() + torque).abs() < 1e-9);
 }

@@ -454,14 +454,6 @@ impl System {
         (matrix, right)
     }
 
-    /// The greatest force of hinges, contacts and drives while all contacts are closed and smooth.
-    pub(crate) fn greatest_closed_force(&self) -> f64 {
-        let contacts = self.contacts.len();
-        let (matrix, right) = self.equations(&vec![false; contacts], false, &vec![1.0; contacts]);
-        let unknowns = matrix.lu().solve(&right).expect("closed contacts are independent");
-        unknowns.rows_range(3 * self.bodies.len()..).amax()
-    }
-
     /// All states, by every pattern; nothing where rounding may decide about one.
     pub(crate) fn states(&self) -> Option<Vec<State>> {
         let (bodies, hinges, contacts) = (3 * self.bodies.len(), 2 * self.hinges.len(), self.contacts.len());

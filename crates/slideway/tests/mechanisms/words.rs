@@ -12,6 +12,7 @@ fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
     let slider = Slider {
         round: None,
         apart: Vec::new(),
+        sticks: false,
         kind,
         block: slideway::ids::Frame::Body(slideway::ids::BodyId(0)),
         guide: slideway::ids::Frame::Ground,

@@ -35,6 +35,7 @@ impl Reader<'_> {
             radius: Some(radius),
             round: Some(Round { centre, radius: guide_radius, inside }),
             touches,
+            sticks: self.sticks(discs.sticks, touches, name, span),
             around: false,
             travel: None,
             has_ends: false,

@@ -98,6 +98,7 @@ impl Reader<'_> {
             radius: joint.radius.as_ref().map(|radius| self.radius(radius, name)),
             round: None,
             touches,
+            sticks: self.sticks(joint.sticks, touches, name, span),
             around: joint.fit == Some(Fit::Around),
             travel: self.travel(joint.travel.as_ref(), name),
             has_ends: joint.face.is_some(),
@@ -162,6 +163,23 @@ impl Reader<'_> {
             // Without a second face there is no friction at it.
             (contact.opens, contact.mu[1], contact.mu_static[1]) = (true, self.zero, self.zero);
         }
+    }
+
+    /// Whether a joint does not slip, which only what touches can.
+    pub(super) fn sticks(
+        &mut self,
+        written: Option<bool>,
+        touches: Touches,
+        name: &str,
+        span: &Span,
+    ) -> bool {
+        let sticks = written == Some(true);
+        if sticks && touches == Touches::Nothing {
+            let kind =
+                FaultKind::Both { owner: name.to_owned(), first: "sticks = true", second: "closed = false" };
+            self.fault(kind, span);
+        }
+        sticks
     }
 
     fn radius(&mut self, radius: &Quantity, name: &str) -> FormulaId {

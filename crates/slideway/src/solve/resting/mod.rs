@@ -14,35 +14,51 @@
 //! values for each contact would state the same as a block problem, whose search is proven, with patterns beside that no state
 //! has; the native states also have static friction above kinetic, and what the equations leave open.
 
+mod jam;
 mod patterns;
 
 use super::answer::{Answer, Tipped, joint_modes, status};
-use super::attainability::not_computed;
+use super::attainability::{Closed, not_computed};
 use super::distinct::distinct;
-use super::mode_problem::{Sliding, none_stands, sliding_signs};
+use super::mode_problem::ProblemData;
 use super::stages::Stages;
+use super::standing::check_standing;
 use super::standing::polyhedron::{Extremes, Polyhedron};
 use super::state::{Held, State, pattern, signs};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::JointId;
+use crate::ids::{ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
 use crate::modes::{Certificate, ContactState};
-use crate::pattern::{Affine, AffineSet, sliding_in_words};
-use crate::report::{Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport};
+use crate::pattern::{Affine, AffineSet, sliding_in_words, sticking_in_words};
+use crate::report::{
+    Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, Verdict,
+};
+pub(super) use jam::impulses as jam_impulses;
 use nalgebra::DVector;
 use patterns::System;
 
 /// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
 const TOLERANCE: f64 = 1e-9;
+/// More patterns of states are refused.
+const MOST_PATTERNS: u64 = 100_000;
 
 /// A joint that does not slide at the start.
 struct RestingJoint {
     joint: JointId,
     contacts: Vec<usize>,
     row: SlidingRow,
+    /// Its rate without any unknown: part of the velocities in its acceleration; in a jam the velocity before the impulse.
+    before: f64,
+}
+
+impl RestingJoint {
+    /// Its rate with these unknowns: the acceleration of sliding, in a jam the velocity afterwards.
+    fn rate(&self, unknowns: &DVector<f64>) -> f64 {
+        self.before + self.row.change(unknowns)
+    }
 }
 
 /// What a joint at rest does that touches.
@@ -59,96 +75,56 @@ struct Pattern {
     starts: Vec<Option<Start>>,
 }
 
-/// The joints that may lift off and do not slide at the start, if these are all that do not.
-///
-/// # Errors
-/// Other contacts with friction that do not slide.
-fn resting(mechanism: &Mechanism, configuration: &Configuration) -> Result<Vec<RestingJoint>, Faults> {
-    let signs = sliding_signs(mechanism, configuration);
-    let rests = |k: usize| {
-        let contact = &mechanism.contacts[k];
-        contact.opens && contact.may_hold() && signs[k] == 0.0
-    };
+/// The joints of which one of these contacts is a part; `before` has the rate of each without any unknown.
+fn joints_of(
+    Stages { mechanism, configuration, .. }: &Stages,
+    contacts: &[ContactId],
+    before: impl Fn(&SlidingRow, ContactId) -> f64,
+) -> Vec<RestingJoint> {
     let joint = |(index, joint): (usize, &crate::mechanism::Joint)| {
         let JointKind::Slider(slider) = &joint.kind else { return None };
-        let contacts: Vec<usize> = slider.contacts.iter().map(|contact| contact.index()).collect();
-        let row = || SlidingRow::new(mechanism, configuration, slider);
-        contacts.iter().any(|&k| rests(k)).then(|| RestingJoint {
+        let first = *slider.contacts.iter().find(|contact| contacts.contains(contact))?;
+        let row = SlidingRow::new(mechanism, configuration, slider);
+        Some(RestingJoint {
             joint: JointId(index),
-            row: row(),
-            contacts,
+            before: before(&row, first),
+            row,
+            contacts: slider.contacts.iter().map(|contact| contact.index()).collect(),
         })
     };
-    let joints: Vec<RestingJoint> = mechanism.joints.iter().enumerate().filter_map(joint).collect();
-    if joints.is_empty() {
-        return Ok(joints);
-    }
-    mechanism.check_no_disc_at_rest(rests)?;
-    let mut others = mechanism.clone();
-    for joint in &joints {
-        joint
-            .contacts
-            .iter()
-            .for_each(|&k| (others.contacts[k].mu, others.contacts[k].mu_static) = Default::default());
-    }
-    none_stands(&others, &Sliding::of(&others, configuration)?.standing)?;
-    Ok(joints)
+    mechanism.joints.iter().enumerate().filter_map(joint).collect()
 }
 
-/// Which contacts slide, where those that may lift off need not.
-///
-/// # Errors
-/// Other contacts with friction that do not slide.
-pub(crate) fn sliding_or_resting(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-) -> Result<Sliding, Faults> {
-    if resting(mechanism, configuration)?.is_empty() {
-        return Sliding::of(mechanism, configuration);
-    }
-    Ok(Sliding { signs: sliding_signs(mechanism, configuration), standing: Vec::new() })
+/// Returns whether contacts that may lift off are among those that do not slide.
+pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> bool {
+    standing.iter().any(|contact| mechanism.contacts[contact.index()].opens)
 }
 
-/// All states of a mechanism of which contacts that may lift off do not slide at the start; none if there are no such contacts.
+/// All states of a mechanism of which contacts that may lift off do not slide at the start.
 ///
 /// # Errors
-/// Other contacts with friction that do not slide, friction in hinges beside them, more patterns of states than are tried.
-pub(super) fn of_mechanism(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-) -> Result<Option<SolveReport>, Faults> {
-    if mechanism.one_sided().next().is_none() {
-        return Ok(None);
-    }
-    let mut mechanism = mechanism.clone();
-    configuration.put_friction(&mut mechanism)?;
-    let joints = resting(&mechanism, configuration)?;
-    if joints.is_empty() {
-        return Ok(None);
-    }
-    let equations = KineticEquations::new(&mechanism, configuration)?;
-    let influences = equations.influences();
-    let stages = Stages {
-        velocity_signs: sliding_signs(&mechanism, configuration),
-        accuracy: influences.accuracy(),
-        influence: Influence::of(influences),
-        mechanism,
-        configuration: configuration.clone(),
-        standing: Vec::new(),
-    };
-    let mut smooth = stages.mechanism.clone();
-    smooth.multiply_friction_of_contacts(|_| 0.0);
-    let answer = Answer::determinate(&stages, &equations);
-    Resting { answer, stages: &stages, joints, smooth }.report().map(Some)
+/// Other contacts that stand still beside them, more patterns of states than are tried.
+pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Result<SolveReport, Faults> {
+    check_standing(&stages.mechanism, &stages.standing)?;
+    let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
+    let force = greatest_force(&stages.influence);
+    Resting::new(&Answer::determinate(stages, equations), joints, force).report()
+}
+
+/// The greatest normal force with all contacts closed and without friction, or 1 N.
+fn greatest_force(influence: &Influence) -> f64 {
+    let greatest = influence.normal_forces().amax();
+    if greatest > 0.0 { greatest } else { 1.0 }
 }
 
 /// A mechanism of which some joints are at rest.
-struct Resting<'a> {
-    answer: Answer<'a>,
-    stages: &'a Stages,
+pub(super) struct Resting<'a> {
+    answer: &'a Answer<'a>,
     joints: Vec<RestingJoint>,
     /// The mechanism without friction.
     smooth: Mechanism,
+    /// The unit of forces (N), in a jam of impulses (N s).
+    force: f64,
 }
 
 /// A point of what a pattern leaves.
@@ -160,20 +136,76 @@ struct Point {
     oriented: f64,
 }
 
-impl Resting<'_> {
+/// Steps of refinement of the forces of a pattern.
+const REFINEMENTS: usize = 2;
+
+impl<'a> Resting<'a> {
+    fn new(answer: &'a Answer<'a>, joints: Vec<RestingJoint>, force: f64) -> Self {
+        let mut smooth = answer.mechanism.clone();
+        smooth.multiply_friction_of_contacts(|_| 0.0);
+        Self { answer, joints, smooth, force }
+    }
+
+    /// A mechanism of which no joint is at rest.
+    pub(super) fn sliding(answer: &'a Answer<'a>) -> Self {
+        Self::new(answer, Vec::new(), greatest_force(answer.influence))
+    }
+
+    /// The normal forces of a state of a mechanism of which no joint is at rest, refined where contacts lift off.
+    pub(super) fn refined_forces(
+        &self,
+        states: &[ContactState],
+        normal_force: &DVector<f64>,
+    ) -> DVector<f64> {
+        if !self.answer.can_be_refined(states) {
+            return normal_force.clone();
+        }
+        let pattern = Pattern { states: states.to_vec(), starts: Vec::new() };
+        let system = self.system(pattern, self.answer.mechanism);
+        let forces = self.refined(&system, normal_force.abs());
+        DVector::from_fn(forces.len(), |k, _| states[k].sign() * forces[k])
+    }
+
+    /// The unknowns of a pattern after some steps of iterative refinement, where contacts lift off: what great forces of closed
+    /// contacts leave where they cancel is known from the equations themselves, not from the influences.
+    fn refined(&self, system: &System, mut unknowns: DVector<f64>) -> DVector<f64> {
+        let states = &system.pattern.states;
+        if !self.answer.can_be_refined(states) {
+            return unknowns;
+        }
+        let factors = self.matrix(system).lu();
+        for _ in 0..REFINEMENTS {
+            let all = self.answer.refined(&self.at(system, &unknowns).state());
+            let left = DVector::from_fn(unknowns.len(), |row, _| match row.checked_sub(states.len()) {
+                None if self.is_open(&system.pattern, row) => all[self.place(row)] / self.force,
+                None => (all[self.place(row)] - states[row].sign() * unknowns[row]) / self.force,
+                Some(stuck) => {
+                    let joint = system.sticking[stuck];
+                    self.joints[joint].rate(&all) / self.acceleration(joint)
+                }
+            });
+            let Some(step) = factors.solve(&left) else { break };
+            unknowns -= step * self.force;
+        }
+        unknowns
+    }
+
     fn report(&self) -> Result<SolveReport, Faults> {
-        let all = self.patterns()?;
+        let all = self.patterns(MOST_PATTERNS)?;
         let open = vec![format!(
             "the states of {}, at rest at the start, are computed in floating point",
             self.names()
         )];
         let (mut solutions, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
-        let (nodes, every_load_has_one_state) = (all.len() as u64, self.is_unique(&all));
+        let nodes = all.len() as u64;
+        let mut every_load_has_one_state = self.may_be_unique().then_some(true);
         for pattern in all {
-            let system = self.system(pattern, &self.stages.mechanism);
+            let system = self.system(pattern, self.answer.mechanism);
+            every_load_has_one_state = every_load_has_one_state
+                .and_then(|all| Some(all && self.oriented(&system).map(|oriented| oriented > 0.0)?));
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
-                let unknowns = set.particular() * self.force();
+                let unknowns = self.refined(&system, set.particular() * self.force);
                 if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
                     solutions.extend(self.solution(&point, &mut tipped));
                 }
@@ -199,7 +231,7 @@ impl Resting<'_> {
     }
 
     fn name(&self, joint: &RestingJoint) -> &str {
-        &self.stages.mechanism.joints[joint.joint.index()].name
+        &self.answer.mechanism.joints[joint.joint.index()].name
     }
 
     fn names(&self) -> String {
@@ -213,7 +245,7 @@ impl Resting<'_> {
         unknowns: &DVector<f64>,
         [beginning, slacks]: &[Vec<Affine>; 2],
     ) -> Option<Point> {
-        let rounding = TOLERANCE * unknowns.amax().max(self.force()) / self.force();
+        let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
         let begins = beginning.iter().all(|slack| slack.constant > rounding);
         let holds = slacks.iter().all(|slack| slack.constant >= -rounding);
         (begins && holds).then(|| self.at(system, unknowns))
@@ -221,10 +253,10 @@ impl Resting<'_> {
 
     /// What contacts do with these unknowns. Forces that are rounding are none.
     fn at(&self, system: &System, unknowns: &DVector<f64>) -> Point {
-        let mechanism = &self.stages.mechanism;
+        let mechanism = self.answer.mechanism;
         let Pattern { states, starts } = &system.pattern;
         let contacts = states.len();
-        let nothing = TOLERANCE * unknowns.amax().max(self.force());
+        let nothing = TOLERANCE * unknowns.amax().max(self.force);
         let force = |k: usize| if unknowns[k].abs() <= nothing { 0.0 } else { unknowns[k] };
         let mut held = Vec::new();
         for (index, (joint, start)) in self.joints.iter().zip(starts).enumerate() {
@@ -260,14 +292,44 @@ impl Resting<'_> {
 
     fn solution(&self, point: &Point, tipped: &mut Tipped) -> Option<Solution> {
         let mut kept = self.answer.kept(&point.state(), tipped)?;
-        kept.attainability = not_computed("contacts are at rest at the start");
+        kept.attainability = self.attainability(point);
         kept.joints = self.words(point);
         Some(kept)
     }
 
+    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick: not
+    /// where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and without
+    /// any that stick the state is that of contacts that slide.
+    fn attainability(&self, point: &Point) -> Attainability {
+        let Answer { mechanism, configuration, influence, .. } = *self.answer;
+        let (signs, states) = (self.signs(&point.pattern), &point.pattern.states);
+        let open: Vec<usize> = (0..states.len()).filter(|&k| self.is_open(&point.pattern, k)).collect();
+        let is_closed = |k: &usize| !open.contains(k);
+        let rubs = |k: usize| signs[k] != 0.0 && mechanism.contacts[k].may_hold();
+        let sticks = point.pattern.starts.contains(&Some(Start::Sticks));
+        let told =
+            |verdict| Attainability { reason: None, ..Attainability::without_eigenvalues(verdict, "") };
+        if point.signs.contains(&0) {
+            not_computed("a contact is about to open or to touch")
+        } else if point.oriented < 0.0 {
+            told(Verdict::Unattainable)
+        } else if mechanism.drives.is_empty() && !(0..states.len()).filter(is_closed).any(rubs) {
+            told(Verdict::Attainable)
+        } else if sticks {
+            not_computed("some contacts stick while others slide, or drives act")
+        } else {
+            let data = ProblemData { mechanism, influence, velocity_signs: &signs };
+            let closed = Closed::new(data, (configuration, self.answer.equations), &open);
+            closed.map_or_else(
+                |_| not_computed("drives cannot act on what is left"),
+                |closed| told(closed.verdict_on(states)),
+            )
+        }
+    }
+
     /// What each sliding joint does, those at rest with how they start.
     fn words(&self, point: &Point) -> Vec<JointMode> {
-        let Stages { mechanism, configuration, .. } = self.stages;
+        let Answer { mechanism, configuration, .. } = *self.answer;
         let mut modes = joint_modes(mechanism, configuration, &point.signs);
         for (joint, start) in self.joints.iter().zip(&point.pattern.starts) {
             let name = self.name(joint);
@@ -277,7 +339,7 @@ impl Resting<'_> {
                     let sign = if *sign < 0.0 { -1 } else { 1 };
                     sliding_in_words(mechanism, configuration, slider, sign)
                 }
-                (Some(Start::Sticks), _) => "sticks".to_owned(),
+                (Some(Start::Sticks), Some(slider)) => sticking_in_words(slider).to_owned(),
                 _ => continue,
             };
             mode.mode = format!("{}, {starts}", mode.mode);
@@ -305,7 +367,7 @@ impl Resting<'_> {
             return None;
         }
         let first = corners.first()?;
-        let unknowns = |free: &DVector<f64>| set.at(free) * self.force();
+        let unknowns = |free: &DVector<f64>| set.at(free) * self.force;
         let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
         let all = |free: &DVector<f64>| self.answer.unknowns(&point(free).state());
         let list = |point: &Point| point.normal_force.iter().map(|force| force + 0.0).collect::<Vec<f64>>();
@@ -325,7 +387,7 @@ impl Resting<'_> {
         };
         let stuck = system.sticking.iter().flat_map(|&joint| self.joints[joint].contacts.clone());
         let of_contact = |k: usize| HeldFriction {
-            name: self.stages.mechanism.contacts[k].name.to_string(),
+            name: self.answer.mechanism.contacts[k].name.to_string(),
             unit: "N",
             at: corners.iter().map(|corner| held(k, corner)).collect(),
             along: growths.iter().map(|growth| held(k, &(first + growth)) - held(k, first)).collect(),

@@ -2,17 +2,13 @@
 
 use super::{Pattern, Resting, RestingJoint, Start, TOLERANCE};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, Frame};
+use crate::ids::{ContactId, Frame, JointId};
 use crate::kinetics::Reaction;
 use crate::mechanism::{Contact, Mechanism};
 use crate::modes::ContactState;
 use crate::pattern::{Affine, AffineExpression, AffineSet};
 use crate::solve::friction::friction;
-use crate::solve::stages::Stages;
 use nalgebra::{DMatrix, DVector};
-
-/// More patterns of states are refused.
-const MOST_PATTERNS: u64 = 100_000;
 
 /// The equations of a pattern, and its inequalities as functions of their unknowns: of the contacts, then of the friction of the
 /// joints that stick.
@@ -25,19 +21,19 @@ pub(super) struct System {
 }
 
 impl Resting<'_> {
-    /// All patterns of states.
+    /// All patterns of states, of which at most so many are tried.
     ///
     /// # Errors
-    /// More than are tried.
-    pub(super) fn patterns(&self) -> Result<Vec<Pattern>, Faults> {
+    /// There are more.
+    pub(super) fn patterns(&self, most: u64) -> Result<Vec<Pattern>, Faults> {
         use ContactState::{Negative, Positive};
-        let contacts = self.stages.mechanism.contacts.len();
+        let contacts = self.answer.mechanism.contacts.len();
         let at_rest: Vec<usize> = self.joints.iter().flat_map(|joint| joint.contacts.clone()).collect();
         let of_joint = |joint: &RestingJoint| 3 * ((1_u64 << joint.contacts.len()) - 1) + 1;
         let sliding = u32::try_from(contacts - at_rest.len()).ok().and_then(|count| 2_u64.checked_pow(count));
         let states = self.joints.iter().map(of_joint).fold(sliding.unwrap_or(u64::MAX), u64::saturating_mul);
-        if states > MOST_PATTERNS {
-            return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_PATTERNS }).into());
+        if states > most {
+            return Err(Fault::general(FaultKind::TooManyStates { states, limit: most }).into());
         }
         let first = Pattern { states: vec![Positive; contacts], starts: Vec::new() };
         let mut all = vec![first];
@@ -66,14 +62,19 @@ impl Resting<'_> {
         Ok(all)
     }
 
-    /// The unknowns of the kinetic equations without the forces of a pattern, and what a unit of each adds.
-    pub(super) fn system(&self, pattern: Pattern, mechanism: &Mechanism) -> System {
-        let Stages { influence, velocity_signs, .. } = self.stages;
-        let mut signs = velocity_signs.clone();
+    /// The signs of the velocities with which contacts slide or begin to.
+    pub(super) fn signs(&self, pattern: &Pattern) -> DVector<f64> {
+        let mut signs = self.answer.velocity_signs.clone();
         for (joint, start) in self.joints.iter().zip(&pattern.starts) {
             let sign = if let Some(Start::Slips(sign)) = start { *sign } else { 0.0 };
             joint.contacts.iter().for_each(|&k| signs[k] = sign);
         }
+        signs
+    }
+
+    /// The unknowns of the kinetic equations without the forces of a pattern, and what a unit of each adds.
+    pub(super) fn system(&self, pattern: Pattern, mechanism: &Mechanism) -> System {
+        let (influence, signs) = (self.answer.influence, self.signs(&pattern));
         let contacts = pattern.states.len();
         let shares = vec![None; contacts];
         let unknowns = |forces: &DVector<f64>| {
@@ -97,14 +98,14 @@ impl Resting<'_> {
 
     /// The equations of a pattern in units of force; none if they contradict each other.
     pub(super) fn equations(&self, system: &System) -> Option<AffineSet> {
-        let force = self.force();
+        let force = self.force;
         let matrix = self.matrix(system);
         let contacts = system.pattern.states.len();
         let right = DVector::from_fn(matrix.nrows(), |row, _| match row.checked_sub(contacts) {
             None => -system.base[self.place(row)] / force,
             Some(stuck) => {
                 let joint = system.sticking[stuck];
-                -self.joints[joint].row.acceleration(&system.base) / self.acceleration(joint)
+                -self.joints[joint].rate(&system.base) / self.acceleration(joint)
             }
         });
         AffineSet::of(matrix, right)
@@ -126,7 +127,7 @@ impl Resting<'_> {
             Some(stuck) => {
                 let joint = system.sticking[stuck];
                 let change = self.joints[joint].row.change(&system.columns[column]);
-                change * self.force() / self.acceleration(joint)
+                change * self.force / self.acceleration(joint)
             }
         })
     }
@@ -136,7 +137,7 @@ impl Resting<'_> {
     /// touches.
     pub(super) fn slacks(&self, system: &System, set: &AffineSet) -> [Vec<Affine>; 2] {
         let contacts = system.pattern.states.len();
-        let mechanism = &self.stages.mechanism;
+        let mechanism = self.answer.mechanism;
         let (open, closed): (Vec<usize>, Vec<usize>) =
             (0..contacts).partition(|&k| self.is_open(&system.pattern, k));
         let own = |list: Vec<usize>| -> Vec<AffineExpression> {
@@ -156,10 +157,10 @@ impl Resting<'_> {
             let Some(Start::Slips(sign)) = start else { continue };
             let unit = self.acceleration(joint);
             let row = &self.joints[joint].row;
-            let at_zero = AffineExpression::constant(sign * row.acceleration(&system.base) / unit);
+            let at_zero = AffineExpression::constant(sign * self.joints[joint].rate(&system.base) / unit);
             beginning.push(system.columns.iter().enumerate().fold(at_zero, |slack, (unknown, column)| {
                 slack.plus(
-                    sign * row.change(column) * self.force() / unit,
+                    sign * row.change(column) * self.force / unit,
                     &AffineExpression::unknown(unknown, 1.0),
                 )
             }));
@@ -180,20 +181,14 @@ impl Resting<'_> {
         (of_smooth.abs() > TOLERANCE * size).then(|| matrix.determinant() / of_smooth * factor)
     }
 
-    /// Whether every load has exactly one state, where nothing slides and static friction is kinetic friction: the oriented
-    /// determinants of all patterns are positive (Kuhn and Loewen 1987). None where that is no answer.
-    pub(super) fn is_unique(&self, patterns: &[Pattern]) -> Option<bool> {
+    /// Whether the signs of the oriented determinants tell if every load has exactly one state, which it has where those of all
+    /// patterns are positive (Kuhn and Loewen 1987): nothing slides, and static friction is kinetic friction.
+    pub(super) fn may_be_unique(&self) -> bool {
         let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;
         let slides =
-            |k: usize| self.stages.velocity_signs[k] != 0.0 && self.stages.mechanism.contacts[k].may_hold();
-        let contacts = &self.stages.mechanism.contacts;
-        if !contacts.iter().all(has_one_law) || (0..contacts.len()).any(slides) {
-            return None;
-        }
-        let determinant =
-            |pattern: &Pattern| self.oriented(&self.system(pattern.clone(), &self.stages.mechanism));
-        let all: Option<Vec<f64>> = patterns.iter().map(determinant).collect();
-        Some(all?.iter().all(|determinant| *determinant > 0.0))
+            |k: usize| self.answer.velocity_signs[k] != 0.0 && self.answer.mechanism.contacts[k].may_hold();
+        let contacts = &self.answer.mechanism.contacts;
+        contacts.iter().all(has_one_law) && !(0..contacts.len()).any(slides)
     }
 
     /// By what the rows of a matrix are divided.
@@ -202,32 +197,30 @@ impl Resting<'_> {
     }
 
     pub(super) fn is_open(&self, pattern: &Pattern, k: usize) -> bool {
-        self.stages.mechanism.contacts[k].opens && pattern.states[k] == ContactState::Negative
+        self.answer.mechanism.contacts[k].opens && pattern.states[k] == ContactState::Negative
     }
 
     pub(super) fn place(&self, k: usize) -> usize {
-        let place = self.stages.influence.layout().reaction(Reaction::Normal(ContactId(k)));
+        let place = self.answer.influence.layout().reaction(Reaction::Normal(ContactId(k)));
         place.expect("every contact has a normal force")
-    }
-
-    /// The greatest normal force with all contacts closed and without friction, or 1 N.
-    pub(super) fn force(&self) -> f64 {
-        let greatest = self.stages.influence.normal_forces().amax();
-        if greatest > 0.0 { greatest } else { 1.0 }
     }
 
     /// What the unit of force would do to the lighter body of a joint alone, beside which accelerations of sliding are
     /// rounding: what other joints hold moves by nothing else.
     pub(super) fn acceleration(&self, joint: usize) -> f64 {
-        let Stages { mechanism, .. } = self.stages;
-        let own = mechanism.slider(self.joints[joint].joint);
-        let own = own.into_iter().flat_map(|slider| [slider.block, slider.guide]).filter_map(Frame::body);
-        let least =
-            |masses: &mut dyn Iterator<Item = f64>| masses.filter(|mass| *mass > 0.0).min_by(f64::total_cmp);
-        let mass = least(&mut own.map(|body| mechanism.bodies[body.index()].mass))
-            .or_else(|| least(&mut mechanism.bodies.iter().map(|body| body.mass)));
-        self.force() / mass.unwrap_or(1.0)
+        self.force / lighter_mass(self.answer.mechanism, self.joints[joint].joint)
     }
+}
+
+/// The mass of the lighter body of a joint; of other bodies where it has none, 1 kg if nothing has mass.
+pub(super) fn lighter_mass(mechanism: &Mechanism, joint: JointId) -> f64 {
+    let own = mechanism.slider(joint);
+    let own = own.into_iter().flat_map(|slider| [slider.block, slider.guide]).filter_map(Frame::body);
+    let least =
+        |masses: &mut dyn Iterator<Item = f64>| masses.filter(|mass| *mass > 0.0).min_by(f64::total_cmp);
+    least(&mut own.map(|body| mechanism.bodies[body.index()].mass))
+        .or_else(|| least(&mut mechanism.bodies.iter().map(|body| body.mass)))
+        .unwrap_or(1.0)
 }
 
 /// Each pattern with each of these states of a contact.

@@ -29,6 +29,7 @@ use super::answer::{Answer, Tipped, status};
 use super::attainability::not_computed;
 use super::distinct::{agree, distinct};
 use super::mode_problem::none_stands;
+use super::resting::may_lift_off;
 use super::stages::Stages;
 use super::state::{Held, State, pattern, signs};
 use crate::fault::{Faults, MOST_CONTACTS, MOST_STANDING};
@@ -55,11 +56,16 @@ pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Resu
     Standing { answer: Answer::determinate(stages, equations), stages, free }.report()
 }
 
-/// Refuses contacts that stand still beside what leaves no answer to compute.
+/// Refuses contacts that stand still beside what leaves no answer to compute: beside those at rest that may lift off, any other.
 ///
 /// # Errors
 /// As [`of_contacts`].
 pub(crate) fn check_standing(mechanism: &Mechanism, standing: &[ContactId]) -> Result<(), Faults> {
+    if may_lift_off(mechanism, standing) {
+        let others: Vec<ContactId> =
+            standing.iter().copied().filter(|contact| !mechanism.contacts[contact.index()].opens).collect();
+        return none_stands(mechanism, &others);
+    }
     if !standing.is_empty() {
         mechanism.check_no_one_sided("what stands still while the rest moves")?;
     }

@@ -390,17 +390,10 @@ impl State<'_> {
         positive.clone().plus(1.0, negative)
     }
 
-    /// Acceleration of sliding of the block of a joint against its guide: along u in the middle between the
-    /// faces, which is -(W^+ + W^-)/2 . a.
+    /// Acceleration of sliding of the block of a joint against its guide, along u.
     pub(super) fn sliding_acceleration(&self, slider: usize) -> AffineExpression {
-        let Some(&k) = self.setup.sliders[slider].contacts.first() else {
-            return AffineExpression::default();
-        };
-        let [positive, negative] = &self.setup.assembled.friction[k];
-        let along = (0..self.setup.equations_of_motion())
-            .map(|column| (column, -f64::midpoint(positive[column], negative[column])));
-        let unit = self.setup.units.acceleration;
-        self.of_accelerations(along, unit)
+        let row = self.setup.row(slider);
+        self.of_accelerations(row.iter().copied().enumerate(), self.setup.units.acceleration)
     }
 
     /// Acceleration of the gap of a contact.
