@@ -56,12 +56,7 @@ pub(super) fn questions(
     of_solve: &Faults,
     work: Work<'_>,
 ) -> Vec<Question> {
-    let drive = if model.drives.is_empty() {
-        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
-        Fault::general(FaultKind::NoDrives { coordinate }).into()
-    } else {
-        of_solve.clone()
-    };
+    let drive = model.has_drives().err().unwrap_or_else(|| of_solve.clone());
     // Without a state there is nothing to ask of it.
     let within = |answer: &dyn Fn(&Configuration) -> Result<(), Faults>| match configuration {
         Some(configuration) => answer(configuration).err().unwrap_or_default(),
