@@ -9,6 +9,9 @@ use slideway::limits::{LimitsReport, ModeLimits};
 use slideway::report::{JointMode, LoadSharing, Proof, Solution, SolveReport, followed, precise};
 use slideway::units::{Unit, Units};
 
+/// Below this part of the greatest of its kind a velocity or an acceleration is rounding, as in texts.
+const ROUNDING: f64 = 1e-13;
+
 /// Everything between the ends of `body`.
 pub(super) fn body(page: &Page<'_>) -> String {
     let solutions = page.report.map(solutions).unwrap_or_default();
@@ -184,7 +187,11 @@ fn has_deflections(solution: &Solution) -> bool {
 
 fn contacts(solution: &Solution, units: &Units) -> String {
     let [force, speed, length] = ["N", "m/s", "m"].map(|si| units.of(si));
+    let speeds = solution.contacts.iter().map(|contact| contact.sliding_velocity);
+    let fastest = speeds.fold(0.0_f64, |fastest, value| fastest.max(value.abs()));
     all(&solution.contacts, |contact| {
+        let slides = contact.sliding_velocity.abs() > ROUNDING * fastest;
+        let sliding = if slides { contact.sliding_velocity } else { 0.0 };
         let deflection = if has_deflections(solution) {
             let value = contact.deflection.map(|value| number(length.number_of(value)));
             format!("<td class=\"number\">{}</td>", value.unwrap_or_default())
@@ -197,7 +204,7 @@ fn contacts(solution: &Solution, units: &Units) -> String {
             text(&contact.name),
             number(force.number_of(contact.normal_force)),
             number(force.number_of(contact.friction_force)),
-            number(speed.number_of(contact.sliding_velocity)),
+            number(speed.number_of(sliding)),
         )
     })
 }
@@ -216,9 +223,15 @@ fn everything_else(solution: &Solution, units: &Units) -> String {
         pair(&hinge.name, &format!("hinge force on {}", hinge.on), hinge.force, &units.of("N"))
             + &couple.unwrap_or_default()
     });
+    let accelerations = solution.bodies.iter().flat_map(|body| body.acceleration);
+    let greatest = accelerations.fold(0.0_f64, |greatest, value| greatest.max(value.abs()));
     let bodies = all(&solution.bodies, |body| {
         pair(&body.name, "acceleration", body.acceleration, &units.of("m/s^2"))
-            + &row(["", "angular acceleration"], body.angular_acceleration, &units.of("rad/s^2"))
+            + &Some(body.angular_acceleration)
+                .filter(|value| value.abs() > ROUNDING * greatest)
+                .map_or_else(String::new, |value| {
+                    row(["", "angular acceleration"], value, &units.of("rad/s^2"))
+                })
     });
     coordinates + &drives + &hinges + &bodies
 }

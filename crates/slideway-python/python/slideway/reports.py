@@ -601,6 +601,7 @@ SpeedChange = Literal[
     "starts_backwards",
     "stays_at_rest",
     "undecided",
+    "may_start",
 ]
 """The change of the speed of a coordinate, from the signs of its rate and of proven bounds of its acceleration.
 
@@ -610,7 +611,8 @@ SpeedChange = Literal[
 - `"starts_forwards"`: Its rate is zero, its acceleration positive.
 - `"starts_backwards"`: Its rate is zero, its acceleration negative.
 - `"stays_at_rest"`: Its rate is zero, and its acceleration is zero within rounding.
-- `"undecided"`: Its acceleration has no proven bounds."""
+- `"undecided"`: Its acceleration has no proven bounds.
+- `"may_start"`: Its rate is zero, and its acceleration has no proven bounds."""
 
 Status = Literal["none", "one", "several", "continuum", "preload_gap", "unknown"]
 """How many solutions there are.

@@ -2,7 +2,7 @@
 
 use super::Finding;
 use crate::configuration::Configuration;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::{FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::motion::{SimulateOptions, Thorough, simulate_with};

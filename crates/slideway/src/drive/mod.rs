@@ -49,7 +49,7 @@ pub use report::{
     Sense,
 };
 
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};

@@ -227,14 +227,14 @@ fn guarantee(raster: &Raster<ClassKey>, colour_by: ColourBy, is_bilinear: bool) 
     let source = if colour_by == ColourBy::Hold {
         "Whether it holds was decided at every point, without the rates and drives of the model."
     } else if is_bilinear {
-        "The mode problem depends bilinearly on both, so its numbers were interpolated."
+        "The equations are linear in each of both quantities, so their numbers were interpolated."
     } else {
         "The mechanism was assembled at every point."
     };
     let missed = match raster.grid.probe {
         1 => "Every pixel was solved.".to_owned(),
         probe => format!(
-            "Probes every {probe} pixels and midway between them: regions that lie between probes and touch no known boundary are missed."
+            "A point was solved every {probe} pixels and midway between: a region between such points that touches no known boundary is missed."
         ),
     };
     format!("{source} {missed}")
