@@ -6,7 +6,9 @@ use crate::drawing::svg::{self, Colours};
 use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::Report;
 use slideway::limits::{LimitsReport, ModeLimits};
-use slideway::report::{JointMode, LoadSharing, Proof, Solution, SolveReport, followed, precise};
+use slideway::report::{
+    JointMode, LoadSharing, ModeEndCause, Proof, Solution, SolveReport, followed, precise,
+};
 use slideway::units::{Unit, Units};
 
 /// Below this part of the greatest of its kind a velocity or an acceleration is rounding, as in texts.
@@ -280,18 +282,29 @@ pub(super) fn limits_of(limits: &LimitsReport) -> String {
         name => name,
     };
     let unit = &limits.vary.shown_in;
+    // Without contacts, a mode throughout the range says nothing more.
+    let is_whole =
+        |mode: &ModeLimits| mode.joints.is_empty() && [mode.from_is, mode.to_is] == [ModeEndCause::Range; 2];
+    let modes = if limits.modes.iter().all(is_whole) { String::new() } else { modes(limits, unit) };
     format!(
-        "<h3>{}, from\n{} to {}</h3>\n{}<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
-         <th class=\"number\">{}</th><th class=\"number\">{}</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
-         <tbody>\n{}</tbody>\n</table>\n</div>\n<p class=\"quiet\">{}</p>\n",
+        "<h3>{}, from\n{} to {}</h3>\n{}{modes}<p class=\"quiet\">{}</p>\n",
         text(name),
         precise(unit.number_of(limits.vary.from)),
         text(&unit.precise(limits.vary.to)),
-        all(&limits.conclusion, |line| format!("<p class=\"conclusion\">{}</p>\n", text(line))),
+        all(limits.sentences(), |line| format!("<p class=\"conclusion\">{}</p>\n", text(line))),
+        text(&limits.known_in_words()),
+    )
+}
+
+/// The table of the modes.
+fn modes(limits: &LimitsReport, unit: &Unit) -> String {
+    format!(
+        "<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
+         <th class=\"number\">{}</th><th class=\"number\">{}</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
+         <tbody>\n{}</tbody>\n</table>\n</div>\n",
         text(&unit.title("From")),
         text(&unit.title("To")),
         all(&limits.modes, |row| mode(row, unit)),
-        text(&limits.known_in_words()),
     )
 }
 
@@ -306,7 +319,11 @@ fn mode(mode: &ModeLimits, unit: &Unit) -> String {
         text(&signs(&mode.pattern)),
         end(mode.from),
         end(mode.to),
-        mode.to_is.in_words(),
+        match mode.to_is {
+            ModeEndCause::Range => "end of the range",
+            ModeEndCause::Locking => "it jams",
+            other => other.in_words(),
+        },
         text(&at),
         joints.join("; "),
     )

@@ -204,6 +204,13 @@ impl Page<'_, LimitsReport> {
 }
 
 impl LimitsReport {
+    /// The limit in one sentence, where there is one, and what the stretches add to it.
+    pub fn sentences(&self) -> Vec<&str> {
+        let says_all = self.summary.is_some() && (self.summary_says_all || self.conclusion.len() == 1);
+        let stretches = self.conclusion.iter().filter(|_| !says_all);
+        self.summary.iter().chain(stretches).map(String::as_str).collect()
+    }
+
     /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits."
     pub fn known_in_words(&self) -> String {
         let unit = &self.vary.shown_in;
