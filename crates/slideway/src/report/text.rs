@@ -287,7 +287,7 @@ impl Text<'_> {
         let factors: Vec<String> =
             factors.map(|(what, factor)| format!("{what} {}", number(factor))).collect();
         if !factors.is_empty() {
-            self.line(&format!("By which factor all friction may change: {}.", factors.join("; ")));
+            self.line(&format!("As a factor on all friction: {}.", factors.join("; ")));
         }
     }
 
