@@ -44,13 +44,14 @@ part() {
 once() {
     awk -v known="$scratch/options" '
         function end_option() {
-            if (option in seen) {
+            key = option
+            gsub(/[ \n]+/, " ", key)
+            if (key in seen) {
                 match(option, /--[a-z-]+|[<[][A-Z]+[]>]/)
                 named = named (named == "" ? "" : ", ") substr(option, RSTART, RLENGTH)
             } else if (option != "") {
                 printf "%s", option
-                gsub(/\n/, "\001", option)
-                print option >>known
+                print key >>known
             }
             option = ""
         }
@@ -59,7 +60,7 @@ once() {
             if (named != "") print "  as above: " named "\n"
             named = ""
         }
-        BEGIN { while ((getline line <known) > 0) { gsub(/\001/, "\n", line); seen[line] } }
+        BEGIN { while ((getline line <known) > 0) seen[line] }
         /^[^ ]/ { end_section(); left_out = /^(Examples|Exit codes):/ }
         left_out { next }
         /^(  -[a-zA-Z], |      )--|^  [<[]/ { end_option(); option = $0 "\n"; next }

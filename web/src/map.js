@@ -11,6 +11,7 @@ const COLOURS = [
   ["margin", "the margin of friction"],
   ["jam", "whether it jams"],
   ["motion", "what becomes of the motion"],
+  ["effort", "the effort of the drive"],
   ["hold", "whether it holds at rest"],
 ];
 const PIXELS = 160;

@@ -27,8 +27,8 @@ pub struct Theme {
 pub const DASHES: [&str; 4] = ["", "7 3", "2 3", "9 3 2 3"];
 
 /// On white. The series are colours of Okabe and Ito, which colour-blind people can tell apart (K. Ichihara,
-/// M. Okabe, K. Iga, Y. Tanaka, K. Musha and K. Ito, Color universal design, 2008); its yellow is left to the
-/// end, as it is faint on white.
+/// M. Okabe, K. Iga, Y. Tanaka, K. Musha and K. Ito, Color universal design, 2008); its second blue comes
+/// late, as it resembles the first, and its yellow last, as it is faint on white.
 pub const LIGHT: Theme = Theme {
     background: "#ffffff",
     ink: "#1b1f24",
@@ -37,7 +37,7 @@ pub const LIGHT: Theme = Theme {
     reaction: "#0072b2",
     friction: "#d55e00",
     warning: "#c01818",
-    series: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#4d4d4d", "#b8a900"],
+    series: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d", "#b8a900"],
 };
 
 /// On a dark background.
@@ -49,7 +49,7 @@ pub const DARK: Theme = Theme {
     reaction: "#56b4e9",
     friction: "#ff9a4d",
     warning: "#ff5a52",
-    series: ["#56b4e9", "#ff9a4d", "#2fc79a", "#e79fc6", "#3a8fd0", "#e69f00", "#b0b0b0", "#f0e442"],
+    series: ["#56b4e9", "#ff9a4d", "#2fc79a", "#e79fc6", "#e69f00", "#3a8fd0", "#b0b0b0", "#f0e442"],
 };
 
 #[cfg(test)]

@@ -329,7 +329,10 @@ fn of_map(outcome: Outcome) -> First {
             "100 % of the map: no solution, a guided slider tips (model it as a block slider).",
         ),
         SlowsDown => Never("a map counts solutions; coloured by motion it says what becomes of the speed"),
-        Undecided => Never("points within rounding of a boundary are the boundary"),
+        Undecided => Line(
+            mapped("drawer", &VERGE, ["m=1 kg..2 kg", "Q=1 N..30 N"]),
+            "100 % of the map: not decided, on the verge of jamming, take it as jammed.",
+        ),
         Interrupted => {
             let options =
                 MapOptions::new("mu=0..1".parse().unwrap(), "a=0 m..0.4 m".parse().unwrap()).size(16, 16);

@@ -456,3 +456,52 @@ fn a_map_of_motion_has_the_classes_of_the_acceleration() {
     let words: Vec<&str> = report.classes.iter().map(|class| &*class.words).collect();
     assert_eq!(words, ["one solution: speeds up", "one solution: slows down"]);
 }
+
+/// The push of the drawer is P = Q/(1 - 2 mu a/L), in closed form; it jams where that is negative.
+#[test]
+fn a_map_of_efforts_has_the_classes_of_the_closed_form() {
+    let drawer = model("drawer", &[]);
+    let size = [60, 40];
+    let report = mapped(&drawer, &options("mu=0..1", "Q=1 N..30 N", size, ColourBy::Effort));
+    for (row, column) in (0..size[1]).flat_map(|row| (0..size[0]).map(move |column| (row, column))) {
+        let (mu, load) = (middle([0.0, 1.0], column, size[0]), middle([1.0, 30.0], row, size[1]));
+        let push = load / (1.0 - 2.0 * mu * 0.3 / 0.4);
+        match &report.classes[report.class_at(column, row)].meaning {
+            ClassMeaning::Effort { from, to } => {
+                let is_within = from.is_none_or(|from| from <= push) && to.is_none_or(|to| push < to);
+                assert!(push > 0.0 && is_within, "{mu} {load}: {push} from {from:?} to {to:?}");
+            }
+            other => assert!(push < 0.0 && *other == ClassMeaning::Locked, "{mu} {load}: {push} {other:?}"),
+        }
+    }
+    let pixels = report.classes.iter().filter(|class| class.meaning != ClassMeaning::Locked);
+    let shares: Vec<f64> = pixels.map(|class| class.pixels as f64 / (size[0] * size[1]) as f64).collect();
+    assert_eq!(shares.len(), 7, "{:?}", report.classes);
+    // A seventh of two thirds, as far as round bounds allow.
+    assert!(shares.iter().all(|share| (0.03..0.2).contains(share)), "{shares:?}");
+    assert!(
+        report.classes.iter().any(|class| class.words == "push needs 25 to 40 N"),
+        "{:?}",
+        report.classes
+    );
+}
+
+#[test]
+fn efforts_of_a_model_without_drives_are_refused() {
+    let klepp = model("klepp-2002", &[]);
+    let faults = map(&klepp, &options("mu_1=0..1", "mu_2=0..1", [8, 8], ColourBy::Effort));
+    let faults = faults.expect_err("nothing drives it");
+    assert!(matches!(faults.sorted()[0].kind, FaultKind::NoDrives { .. }), "{faults}");
+}
+
+/// At mu = L/(2 a) = 2/3 the determinant is zero but for rounding, whatever the resistance and the speed; `limits`
+/// says "not decided" there, and so does the map.
+#[test]
+fn a_verge_is_undecided_and_not_locked() {
+    let drawer = model("drawer", &[("mu", "2/3")]);
+    for colour_by in [ColourBy::Solutions, ColourBy::Modes, ColourBy::Margin, ColourBy::Effort] {
+        let report = mapped(&drawer, &options("Q=1 N..30 N", "m=1 kg..2 kg", [8, 8], colour_by));
+        let meanings: Vec<&ClassMeaning> = report.classes.iter().map(|class| &class.meaning).collect();
+        assert_eq!(meanings, [&ClassMeaning::Undecided], "{colour_by:?}");
+    }
+}

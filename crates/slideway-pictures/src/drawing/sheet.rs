@@ -430,10 +430,14 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::Opening, "contact that opens, acceleration of its gap".to_owned()),
         (Class::Break, "not to scale".to_owned()),
     ];
-    let used: Vec<_> = words
-        .into_iter()
-        .filter(|(class, _)| scene.elements.iter().any(|element| element.class == *class))
-        .collect();
+    let occurs = |class: &Class| scene.elements.iter().any(|element| element.class == *class);
+    let mut used: Vec<_> = words.into_iter().filter(|(class, _)| occurs(class)).collect();
+    // They have one colour, and so one entry.
+    if [Class::Reaction, Class::PinForce].iter().all(occurs) {
+        let pin =
+            used.iter().position(|(class, _)| *class == Class::PinForce).map(|place| used.remove(place));
+        used[0].1.extend(pin.map(|(_, words)| format!("; {words}")));
+    }
     let mut corner = Point::new(0.0, y + 18.0);
     for (class, text) in &used {
         let total = 40.0 + width(text, VALUE_SIZE);

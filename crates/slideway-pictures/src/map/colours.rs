@@ -16,7 +16,7 @@ pub(super) struct Paint {
 /// background.
 const NUMBERS: [&str; 6] = ["#d6e6f4", "#86bbdd", "#3a87c0", "#17548f", "#0b2f5b", "#061a36"];
 const NUMBERS_ON_DARK: [&str; 6] = ["#12365f", "#24649f", "#4a95cc", "#8cc4e6", "#c0e0f4", "#eef7fd"];
-/// Margins, small to large: the sequence YlGnBu of C. Brewer (ColorBrewer 2.0, Apache licence 2.0).
+/// Margins and efforts, small to large: the sequence YlGnBu of C. Brewer (ColorBrewer 2.0, Apache licence 2.0).
 const MARGINS: [&str; 7] = ["#ffffcc", "#c7e9b4", "#7fcdbb", "#41b6c4", "#1d91c0", "#225ea8", "#0c2c84"];
 /// Sets of modes: lighter forms of the colours of Okabe and Ito, then the colours themselves, and two violets;
 /// no red, which warns.
@@ -32,6 +32,8 @@ const BOTH: &str = "#8cc4e6";
 /// It slows down, or does not stay at rest.
 const SLIPS: &str = "#e69f00";
 const SEVERAL: &str = "#d9a5c3";
+/// It is not decided.
+const OPEN: &str = "#8a63b8";
 
 /// How the points of a class are filled; sets of modes take their colours in the order of the classes.
 pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Paint {
@@ -54,11 +56,9 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             Paint { fill, hatching }
         }
         ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. } => {
-            let is_set = |other: &&MapClass| {
-                matches!(other.meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. })
-            };
-            let sets = classes.iter().filter(is_set);
-            let place = sets.take_while(|other| *other != class).count();
+            let is_set =
+                |meaning: &ClassMeaning| matches!(meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. });
+            let place = place(classes, class, is_set);
             // After a round of colours they are hatched.
             let hatching = (place >= SETS.len()).then_some(Hatching::Falling);
             Paint { fill: SETS[place % SETS.len()], hatching }
@@ -68,6 +68,10 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             let step = all.iter().rposition(|bound| bound <= from).unwrap_or(0);
             plain(MARGINS[step])
         }
+        ClassMeaning::Effort { .. } => {
+            let place = place(classes, class, |meaning| matches!(meaning, ClassMeaning::Effort { .. }));
+            plain(MARGINS[place.min(MARGINS.len() - 1)])
+        }
         ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => plain(BOTH),
         ClassMeaning::Moves { as_in_model: true, .. }
         | ClassMeaning::Rest { holds: Some(true), may_slip: true } => plain(LOCKED_IN_OPPOSITE),
@@ -76,11 +80,20 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Rest { holds: Some(true), .. } => plain(numbers[1]),
         ClassMeaning::Rest { holds: Some(false), .. } => plain(SLIPS),
         ClassMeaning::Continuum => plain(theme.ink),
-        ClassMeaning::TooLarge | ClassMeaning::NotSolved { .. } | ClassMeaning::Rest { holds: None, .. } => {
+        ClassMeaning::Undecided | ClassMeaning::TooLarge | ClassMeaning::Rest { holds: None, .. } => {
+            Paint { fill: OPEN, hatching: Some(Hatching::Falling) }
+        }
+        ClassMeaning::NotSolved { .. } => {
             let fill = if *theme == DARK { "#30363d" } else { "#e1e4e8" };
             Paint { fill, hatching: Some(Hatching::Falling) }
         }
     }
+}
+
+/// Returns how many classes of this kind come before one.
+fn place(classes: &[MapClass], class: &MapClass, is_of_kind: fn(&ClassMeaning) -> bool) -> usize {
+    let of_kind = classes.iter().filter(|other| is_of_kind(&other.meaning));
+    of_kind.take_while(|other| *other != class).count()
 }
 
 /// Returns the colour of the motion in which all solutions agree: green where it speeds up or starts, yellow

@@ -206,12 +206,18 @@ pub(super) fn colours(animation: &Animation) -> Vec<(Class, &'static str)> {
         (Class::Velocity, "sliding velocity"),
         (Class::Break, "not to scale"),
     ];
-    let occurs = |class: Class| {
+    let occurs = |class: &Class| {
         let (name, line) =
-            (format!("class=\"{}\"", class_name(class)), format!("class=\"{} ", class_name(class)));
+            (format!("class=\"{}\"", class_name(*class)), format!("class=\"{} ", class_name(*class)));
         animation.shapes.iter().any(|shape| shape.contains(&name) || shape.contains(&line))
     };
-    all.into_iter().filter(|(class, _)| occurs(*class)).collect()
+    let mut used: Vec<_> = all.into_iter().filter(|(class, _)| occurs(class)).collect();
+    // They have one colour, and so one entry.
+    if [Class::Reaction, Class::PinForce].iter().all(occurs) {
+        used.retain(|(class, _)| *class != Class::PinForce);
+        used[0].1 = "normal reaction, force of a pin";
+    }
+    used
 }
 
 /// The title above the drawing, and at the foot of the picture the key to the colours of arrows.

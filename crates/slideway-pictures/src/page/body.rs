@@ -6,8 +6,13 @@ use crate::drawing::svg::{self, Colours};
 use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::Report;
 use slideway::limits::{LimitsReport, ModeLimits};
-use slideway::report::{JointMode, LoadSharing, Proof, Solution, SolveReport, followed, precise};
+use slideway::report::{
+    JointMode, LoadSharing, ModeEndCause, Proof, Solution, SolveReport, followed, precise,
+};
 use slideway::units::{Unit, Units};
+
+/// Below this part of the greatest of its kind a velocity or an acceleration is rounding, as in texts.
+const ROUNDING: f64 = 1e-13;
 
 /// Everything between the ends of `body`.
 pub(super) fn body(page: &Page<'_>) -> String {
@@ -184,7 +189,11 @@ fn has_deflections(solution: &Solution) -> bool {
 
 fn contacts(solution: &Solution, units: &Units) -> String {
     let [force, speed, length] = ["N", "m/s", "m"].map(|si| units.of(si));
+    let speeds = solution.contacts.iter().map(|contact| contact.sliding_velocity);
+    let fastest = speeds.fold(0.0_f64, |fastest, value| fastest.max(value.abs()));
     all(&solution.contacts, |contact| {
+        let slides = contact.sliding_velocity.abs() > ROUNDING * fastest;
+        let sliding = if slides { contact.sliding_velocity } else { 0.0 };
         let deflection = if has_deflections(solution) {
             let value = contact.deflection.map(|value| number(length.number_of(value)));
             format!("<td class=\"number\">{}</td>", value.unwrap_or_default())
@@ -197,7 +206,7 @@ fn contacts(solution: &Solution, units: &Units) -> String {
             text(&contact.name),
             number(force.number_of(contact.normal_force)),
             number(force.number_of(contact.friction_force)),
-            number(speed.number_of(contact.sliding_velocity)),
+            number(speed.number_of(sliding)),
         )
     })
 }
@@ -216,9 +225,15 @@ fn everything_else(solution: &Solution, units: &Units) -> String {
         pair(&hinge.name, &format!("hinge force on {}", hinge.on), hinge.force, &units.of("N"))
             + &couple.unwrap_or_default()
     });
+    let accelerations = solution.bodies.iter().flat_map(|body| body.acceleration);
+    let greatest = accelerations.fold(0.0_f64, |greatest, value| greatest.max(value.abs()));
     let bodies = all(&solution.bodies, |body| {
         pair(&body.name, "acceleration", body.acceleration, &units.of("m/s^2"))
-            + &row(["", "angular acceleration"], body.angular_acceleration, &units.of("rad/s^2"))
+            + &Some(body.angular_acceleration)
+                .filter(|value| value.abs() > ROUNDING * greatest)
+                .map_or_else(String::new, |value| {
+                    row(["", "angular acceleration"], value, &units.of("rad/s^2"))
+                })
     });
     coordinates + &drives + &hinges + &bodies
 }
@@ -267,18 +282,29 @@ pub(super) fn limits_of(limits: &LimitsReport) -> String {
         name => name,
     };
     let unit = &limits.vary.shown_in;
+    // Without contacts, a mode throughout the range says nothing more.
+    let is_whole =
+        |mode: &ModeLimits| mode.joints.is_empty() && [mode.from_is, mode.to_is] == [ModeEndCause::Range; 2];
+    let modes = if limits.modes.iter().all(is_whole) { String::new() } else { modes(limits, unit) };
     format!(
-        "<h3>{}, from\n{} to {}</h3>\n{}<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
-         <th class=\"number\">{}</th><th class=\"number\">{}</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
-         <tbody>\n{}</tbody>\n</table>\n</div>\n<p class=\"quiet\">{}</p>\n",
+        "<h3>{}, from\n{} to {}</h3>\n{}{modes}<p class=\"quiet\">{}</p>\n",
         text(name),
         precise(unit.number_of(limits.vary.from)),
         text(&unit.precise(limits.vary.to)),
-        all(&limits.conclusion, |line| format!("<p class=\"conclusion\">{}</p>\n", text(line))),
+        all(limits.sentences(), |line| format!("<p class=\"conclusion\">{}</p>\n", text(line))),
+        text(&limits.known_in_words()),
+    )
+}
+
+/// The table of the modes.
+fn modes(limits: &LimitsReport, unit: &Unit) -> String {
+    format!(
+        "<div class=\"wide\">\n<table class=\"limits\">\n<thead><tr><th>Signs</th>\
+         <th class=\"number\">{}</th><th class=\"number\">{}</th><th>Ends with</th><th>Contact mode</th></tr></thead>\n\
+         <tbody>\n{}</tbody>\n</table>\n</div>\n",
         text(&unit.title("From")),
         text(&unit.title("To")),
         all(&limits.modes, |row| mode(row, unit)),
-        text(&limits.known_in_words()),
     )
 }
 
@@ -293,7 +319,11 @@ fn mode(mode: &ModeLimits, unit: &Unit) -> String {
         text(&signs(&mode.pattern)),
         end(mode.from),
         end(mode.to),
-        mode.to_is.in_words(),
+        match mode.to_is {
+            ModeEndCause::Range => "end of the range",
+            ModeEndCause::Locking => "it jams",
+            other => other.in_words(),
+        },
         text(&at),
         joints.join("; "),
     )

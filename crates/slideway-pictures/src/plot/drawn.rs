@@ -112,8 +112,9 @@ pub struct LegendEntry {
 pub fn drawn(figure: &Figure, [width, height]: [f64; 2]) -> Vec<DrawnPanel> {
     let space = figure.panels.iter().map(|panel| space_on_the_left(figure, panel, height));
     let left = MARGIN + space.fold(0.0, f64::max);
-    let layout =
-        |panel| PanelLayout::new((figure, panel), [left, left + width + super::panel::LAST], 0.0, height);
+    let layout = |panel| {
+        PanelLayout::new((figure, panel), [left, left + width + super::panel::LAST], (0.0, height), true)
+    };
     figure.panels.iter().map(|panel| drawn_panel(figure, &layout(panel))).collect()
 }
 

@@ -74,17 +74,24 @@ pub(crate) struct Placed {
     frame: Frame,
     /// Distance of the ticks of the horizontal axis from the frame (px).
     below: f64,
+    /// Whether the horizontal axis has its name.
+    is_named: bool,
 }
 
 impl Placed {
     /// In the frame left, top, right, bottom.
     pub(crate) fn new(axes: [FrameAxis; 2], [left, top, right, bottom]: [f64; 4]) -> Self {
-        Self { axes, frame: Frame { left, top, right, bottom }, below: 0.0 }
+        Self { axes, frame: Frame { left, top, right, bottom }, below: 0.0, is_named: true }
     }
 
     /// With space between the frame and the numbers of the horizontal axis.
     pub(super) fn with_space_below(self, below: f64) -> Self {
         Self { below, ..self }
+    }
+
+    /// Without the name of the horizontal axis, which another one has.
+    pub(super) fn without_name(self) -> Self {
+        Self { is_named: false, ..self }
     }
 
     pub(super) fn rectangle(&self) -> Frame {
@@ -98,7 +105,8 @@ impl Placed {
 
     /// Below the name of the horizontal axis.
     pub(crate) fn bottom(&self) -> f64 {
-        self.frame.bottom + self.below + TICK + 2.9 * TEXT
+        let lines = if self.is_named { 2.9 } else { 1.3 };
+        self.frame.bottom + self.below + TICK + lines * TEXT
     }
 
     pub(super) fn x(&self) -> Scale {
@@ -155,7 +163,9 @@ pub(crate) fn draw_axes(placed: &Placed, theme: &Theme, svg: &mut Svg) {
     let size = coordinate(TEXT);
     let name = [("class", "axis"), ("font-size", &*size), ("text-anchor", "middle"), ("fill", theme.ink)];
     let middle = [f64::midpoint(left, right), f64::midpoint(top, bottom)];
-    svg.label([middle[0], below + TICK + 2.45 * TEXT], &name, &placed.axes[0].named());
+    if placed.is_named {
+        svg.label([middle[0], below + TICK + 2.45 * TEXT], &name, &placed.axes[0].named());
+    }
     let x = MARGIN + 0.8 * TEXT;
     let turned = format!("rotate(-90 {} {})", coordinate(x), coordinate(middle[1]));
     svg.label([x, middle[1]], &[&name[..], &[("transform", &turned)]].concat(), &placed.axes[1].named());

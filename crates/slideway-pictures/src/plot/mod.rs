@@ -62,9 +62,11 @@ use svg::{Svg, coordinate, wrapped};
 
 /// Width of a figure (px).
 const WIDTH: f64 = 800.0;
-/// Height of the frame of a single panel, and of each of several (px).
+/// Height of the frame of a single panel, of each of a few, and of each of more than those (px).
 const SINGLE_HEIGHT: f64 = 380.0;
 const STACKED_HEIGHT: f64 = 300.0;
+const FEW: usize = 3;
+const LOW_HEIGHT: f64 = 200.0;
 /// Space around everything (px).
 const MARGIN: f64 = 14.0;
 /// Font sizes (px).
@@ -116,13 +118,20 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
         }
     }
     y -= SMALL;
-    let height = if figure.panels.len() == 1 { SINGLE_HEIGHT } else { STACKED_HEIGHT };
+    let height = match figure.panels.len() {
+        1 => SINGLE_HEIGHT,
+        2..=FEW => STACKED_HEIGHT,
+        _ => LOW_HEIGHT,
+    };
     let space = figure.panels.iter().map(|panel| panel::space_on_the_left(figure, panel, height));
     let left = space.fold(0.0, f64::max);
     let mut legend = Legend::default();
     for (index, panel) in figure.panels.iter().enumerate() {
         let top = if index == 0 { y } else { y + BETWEEN };
-        let layout = PanelLayout::new((figure, panel), [MARGIN + left, WIDTH - MARGIN], top, height);
+        // Of panels with the same axis below, the last one names it.
+        let is_named = figure.panels.get(index + 1).is_none_or(|next| next.x != panel.x);
+        let sides = [MARGIN + left, WIDTH - MARGIN];
+        let layout = PanelLayout::new((figure, panel), sides, (top, height), is_named);
         layout.draw(theme, &mut svg);
         legend = if figure.one_legend {
             legend.with(Legend::of(figure, &layout))

@@ -84,12 +84,12 @@ pub(super) struct Exit {
 }
 
 impl<'f> PanelLayout<'f> {
-    /// Between `left` and `right`, below `top`, with a frame of this height.
+    /// Between `left` and `right`, below `top`, with a frame of this height, and the name of the horizontal axis or not.
     pub(super) fn new(
         (figure, panel): (&'f Figure, &'f Panel),
         [left, right]: [f64; 2],
-        top: f64,
-        height: f64,
+        (top, height): (f64, f64),
+        is_named: bool,
     ) -> Self {
         let right = right - LAST;
         let axes = axes(figure, panel);
@@ -103,6 +103,7 @@ impl<'f> PanelLayout<'f> {
         let frame_top = top + 10.0 + title + ROW * rows as f64 + if rows > 0 { 4.0 } else { 0.0 };
         let below = if panel.bands.is_empty() { 0.0 } else { BAND + 4.0 };
         let placed = Placed::new(axes, [left, frame_top, right, frame_top + height]).with_space_below(below);
+        let placed = if is_named { placed } else { placed.without_name() };
         let (frame, y) = (placed.rectangle(), placed.y());
         let mut layout = Self { figure, panel, placed, frame, x, y, flags, lines: Vec::new(), top };
         let parts: Vec<Vec<Vec<[f64; 2]>>> = panel.curves.iter().map(|curve| layout.parts(curve)).collect();

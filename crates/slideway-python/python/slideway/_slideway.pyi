@@ -928,7 +928,7 @@ class Model:
         **axes : pair
             Two quantities, x first, each with the ends of its range: `mu=(0, 1), L=("0.3 m", "0.5 m")`. None stands for a
             usual range.
-        colour_by : {"solutions", "modes", "margin", "jam", "motion", "hold"}
+        colour_by : {"solutions", "modes", "margin", "jam", "motion", "effort", "hold"}
             What the colours tell.
         size : pair of int, optional
             Pixels in each direction.

@@ -25,7 +25,7 @@ QuantityName = Literal["normal-force", "friction", "acceleration", "effort"]
 UnitsName = Literal["as-typed", "SI", "mm", "in"]
 DrivesAtRest = Literal["release", "hold"]
 MarginAgainst = Literal["locking", "self-locking", "hold"]
-ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "hold"]
+ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "effort", "hold"]
 SamplingName = Literal["random", "halton"]
 Preference = Literal["rule", "sliding"]
 

@@ -249,7 +249,7 @@ CertificateKind = Literal["proven", "on_boundary", "not_proven"]
 - `"on_boundary"`: Some normal force or determinant is zero within the rounding of the mechanism's numbers.
 - `"not_proven"`: It was found within tolerances only."""
 
-ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "hold"]
+ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "effort", "hold"]
 """Property that the colours of a map show.
 
 - `"solutions"`: The number of solutions, and of states with the preload between the faces.
@@ -257,6 +257,7 @@ ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "hold"]
 - `"margin"`: The factor by which all friction may grow before there are no or several solutions.
 - `"jam"`: Whether it moves as in the model, and the other way.
 - `"motion"`: The change of the speed of each coordinate that no drive moves, in each solution.
+- `"effort"`: The effort of the first drive, the least of several solutions.
 - `"hold"`: Whether it can stay at rest, drives absent."""
 
 CoordinateForm = Literal["slide", "rotation", "displacement"]
@@ -600,6 +601,7 @@ SpeedChange = Literal[
     "starts_backwards",
     "stays_at_rest",
     "undecided",
+    "may_start",
 ]
 """The change of the speed of a coordinate, from the signs of its rate and of proven bounds of its acceleration.
 
@@ -609,7 +611,8 @@ SpeedChange = Literal[
 - `"starts_forwards"`: Its rate is zero, its acceleration positive.
 - `"starts_backwards"`: Its rate is zero, its acceleration negative.
 - `"stays_at_rest"`: Its rate is zero, and its acceleration is zero within rounding.
-- `"undecided"`: Its acceleration has no proven bounds."""
+- `"undecided"`: Its acceleration has no proven bounds.
+- `"may_start"`: Its rate is zero, and its acceleration has no proven bounds."""
 
 Status = Literal["none", "one", "several", "continuum", "preload_gap", "unknown"]
 """How many solutions there are.

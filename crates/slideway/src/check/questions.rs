@@ -2,7 +2,7 @@
 
 use super::Finding;
 use crate::configuration::Configuration;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::{FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::motion::{SimulateOptions, Thorough, simulate_with};
@@ -56,12 +56,7 @@ pub(super) fn questions(
     of_solve: &Faults,
     work: Work<'_>,
 ) -> Vec<Question> {
-    let drive = if model.drives.is_empty() {
-        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
-        Fault::general(FaultKind::NoDrives { coordinate }).into()
-    } else {
-        of_solve.clone()
-    };
+    let drive = model.has_drives().err().unwrap_or_else(|| of_solve.clone());
     // Without a state there is nothing to ask of it.
     let within = |answer: &dyn Fn(&Configuration) -> Result<(), Faults>| match configuration {
         Some(configuration) => answer(configuration).err().unwrap_or_default(),

@@ -49,7 +49,7 @@ pub use report::{
     Sense,
 };
 
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
@@ -114,10 +114,7 @@ pub fn drive_with(
 }
 
 fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<DriveReport, Faults> {
-    if model.drives.is_empty() {
-        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
-        return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
-    }
+    model.has_drives()?;
     let reversed = model.reversed();
     let course = match &options.vary {
         Some(vary) => Some(course([model, &reversed], vary, options.rows, work.part(1, 2))?),

@@ -64,15 +64,21 @@ pub(super) fn conclusion(
 /// The limit in one sentence, if the mechanism moves on one side of it and jams on the other, up to an end of the range or
 /// to a gap without an answer.
 fn summary(pieces: &[Piece], gaps: &[[f64; 2]], varied: &Varied) -> Option<String> {
-    let now = varied
-        .present()
-        .ok()
-        .map_or_else(String::new, |now| format!(" (the model has {})", varied.shown_in.brief(now)));
+    let is_factor = varied.is_friction_factor();
+    let now = varied.present().ok().filter(|_| !is_factor);
+    let now = now.map_or_else(String::new, |now| format!(" (the model has {})", varied.shown_in.brief(now)));
     let all = |piece: &Piece| {
-        let from = varied.shown_in.brief_number(piece.from);
-        format!("for {} from {from} to {}", varied.name, varied.shown_in.brief(piece.to))
+        let (from, to) = (varied.shown_in.brief_number(piece.from), varied.shown_in.brief(piece.to));
+        if is_factor {
+            format!("with {from} to {to} times this friction")
+        } else {
+            format!("for {} from {from} to {to}", varied.name)
+        }
     };
-    let at = |piece: &Piece| format!("{} = {}", varied.name, varied.shown_in.brief(piece.from));
+    let at = |piece: &Piece| match varied.shown_in.brief(piece.from) {
+        factor if is_factor => format!("{factor} times this friction"),
+        value => format!("{} = {value}", varied.name),
+    };
     let is_certain = |piece: &Piece| piece.known != Known::Undecided;
     match pieces {
         pieces if !pieces.iter().all(is_certain) => None,

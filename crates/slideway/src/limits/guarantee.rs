@@ -8,19 +8,19 @@ use crate::units::Unit;
 pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
     let mut sentences = vec![match found.method {
         Method::ClosedForm => {
-            "The mode problem depends linearly on it, so all ends are zeros of determinants.".to_owned()
+            "The equations are linear in it, so that every limit is computed in closed form.".to_owned()
         }
         Method::Hinge => {
-            "All forces of a mode are affine in the friction couple of the only hinge with friction, so all ends are in closed form."
+            "All forces are linear in the friction couple of the only hinge with friction, so that every limit is computed in closed form."
                 .to_owned()
         }
-        Method::Same { at_rest: false } => "The mode problem does not depend on it.".to_owned(),
+        Method::Same { at_rest: false } => "The equations do not depend on it.".to_owned(),
         Method::Same { at_rest: true } => {
-            "The mode problem does not depend on it: static friction counts at rest (`slideway hold`)."
+            "The equations do not depend on it: static friction counts at rest (`slideway hold`)."
                 .to_owned()
         }
         Method::Bracketing => format!(
-            "{} values were tried, and changes between them were bisected to machine precision; ends closer than {} to each other, to an end of the range or to zero are one.",
+            "{} values were tried. Where two neighbours differ, the limit between them was found by bisection, down to rounding. Limits closer than {} to each other, to an end of the range or to zero count as one.",
             found.tried.len(),
             shown_in.with(&format!("{:.1e}", shown_in.number_of(found.same_ends.within)))
         ),
@@ -28,16 +28,16 @@ pub(crate) fn guarantee(found: &ModesFound, shown_in: &Unit) -> String {
     sentences.extend(knowledge(found, shown_in));
     if found.counts.iter().any(|count| count.continuum) && !found.existence.modes.is_empty() {
         sentences.push(
-            "The certified search finds infinitely many solutions at one value between ends of modes."
+            "At one value between two limits the certified search finds infinitely many solutions."
                 .to_owned(),
         );
     }
-    let single = "States of a guided slider between its faces at single values alone, where its normal force passes through zero, are";
+    let single = "A guided slider can be between its faces at a single value, where its normal force passes through zero. Such states are";
     match found.between_faces {
         SingleValues::Impossible => {}
         SingleValues::At(_) => {
             sentences.push(format!(
-                "{single} reported where `solve` finds them at these zeros, in rounded numbers; beside other preload-gap states they are omitted."
+                "{single} reported where `solve` finds them, in rounded numbers; beside other preload-gap states they are omitted."
             ));
         }
         SingleValues::LeftOut => sentences.push(format!("{single} omitted.")),
@@ -98,7 +98,7 @@ fn knowledge(found: &ModesFound, shown_in: &Unit) -> Option<String> {
             if found.method == Method::Bracketing { ", which come from rounded numbers" } else { "" };
         return Some(if left_out > 0.0 {
             format!(
-                "The numbers of solutions are proven, except within {} of ends of modes{rounded}.",
+                "The numbers of solutions are proven, except within {} of the limits{rounded}.",
                 at_most(left_out, shown_in)
             )
         } else {
@@ -107,11 +107,11 @@ fn knowledge(found: &ModesFound, shown_in: &Unit) -> Option<String> {
     }
     let mut parts = Vec::new();
     if is_proven {
-        parts.push("the numbers of solutions are proven where stated".to_owned());
+        parts.push("the numbers of solutions are proven where the table says so".to_owned());
     }
     let they = if is_proven { "elsewhere they" } else { "the numbers of solutions" };
     if is_any(Elsewhere::ClosedForm) {
-        parts.push(format!("{they} follow from these zeros, which are computed in rounded numbers"));
+        parts.push(format!("{they} follow from the limits, which are computed in rounded numbers"));
     }
     if spacing > 0.0 {
         parts.push(format!(

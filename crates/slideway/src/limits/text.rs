@@ -190,11 +190,11 @@ impl Page<'_, LimitsReport> {
         let rows: Vec<Vec<String>> = sorted.into_iter().map(row).collect();
         self.table(&titles, &rows);
         for mode in modes.iter().filter(|_| verbose) {
-            let name = format!("{} {}", spaced(&mode.pattern), orientation(mode));
+            let name = mode_name(mode);
             let parts = [joints_in_words(&mode.joints), speeds_in_words(&mode.speeds, unit)];
             let words = parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join("; ");
             if !words.is_empty() {
-                self.hung(&format!("  {}: {words}", name.trim()), "  ");
+                self.hung(&format!("  {name}: {words}"), "  ");
             }
         }
         if verbose && modes.iter().any(|mode| mode.orientation == Some(-1)) {
@@ -204,6 +204,13 @@ impl Page<'_, LimitsReport> {
 }
 
 impl LimitsReport {
+    /// The limit in one sentence, where there is one, and what the stretches add to it.
+    pub fn sentences(&self) -> Vec<&str> {
+        let says_all = self.summary.is_some() && (self.summary_says_all || self.conclusion.len() == 1);
+        let stretches = self.conclusion.iter().filter(|_| !says_all);
+        self.summary.iter().chain(stretches).map(String::as_str).collect()
+    }
+
     /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits."
     pub fn known_in_words(&self) -> String {
         let unit = &self.vary.shown_in;
@@ -279,6 +286,15 @@ fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {
         vec![spaced(&mode.pattern), from, to, begins, ends]
     } else {
         vec![from, to, joints_in_words(&mode.joints), ends]
+    }
+}
+
+/// The signs of a mode, with the orientation of a solution with friction in hinges: "+ -", "+ - (orientation -)".
+fn mode_name(mode: &ModeLimits) -> String {
+    match (spaced(&mode.pattern), orientation(mode)) {
+        (signs, "") => signs,
+        (signs, sign) if signs.is_empty() => format!("orientation {sign}"),
+        (signs, sign) => format!("{signs} (orientation {sign})"),
     }
 }
 

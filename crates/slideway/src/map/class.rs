@@ -1,6 +1,6 @@
 //! The classes into which the points of a map fall.
 
-use super::ColourBy;
+use super::{ColourBy, effort};
 use crate::fault::{FaultKind, Faults};
 use crate::modes::ContactState;
 use crate::modes::existence::{ExistenceOptions, counts};
@@ -8,7 +8,6 @@ use crate::progress::Work;
 use crate::report::SpeedChange;
 use crate::solve::{AT_ONCE, Parts, StateWithinTolerances, pattern};
 use serde::Serialize;
-use std::borrow::Cow;
 
 /// Bounds of the classes of margins.
 pub(super) const MARGINS: [f64; 8] = [1.0, 1.1, 1.25, 1.5, 2.0, 3.0, 5.0, f64::INFINITY];
@@ -48,6 +47,13 @@ pub enum ClassMeaning {
         /// The greatest; null where there is none.
         to: Option<f64>,
     },
+    /// The least effort of the first drive (N or N m) lies in this range.
+    Effort {
+        /// Its lower end; null where there is none.
+        from: Option<f64>,
+        /// Its upper end; null where there is none.
+        to: Option<f64>,
+    },
     /// In which directions there is a solution or a preload-gap state.
     Moves {
         /// As in the model.
@@ -74,6 +80,8 @@ pub enum ClassMeaning {
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         may_slip: bool,
     },
+    /// Whether there is a solution is not decided: rounding hides it.
+    Undecided,
     /// Infinitely many solutions.
     Continuum,
     /// Too many patterns or solutions to find all of them.
@@ -99,23 +107,53 @@ pub(super) enum Answer {
 
 impl Answer {
     /// The states; none if the search did not come to its end.
-    fn states(&self, work: Work<'_>) -> Option<Cow<'_, States>> {
+    fn states(&self) -> Option<&States> {
         match self {
-            Self::Problem(point) => states(point, work).map(Cow::Owned),
-            Self::States(states) => Some(Cow::Borrowed(states)),
+            Self::Problem(point) => point.states.as_ref(),
+            Self::States(states) => Some(states),
         }
+    }
+
+    /// Returns the least effort of the first drive by magnitude; none without a solution or without a drive.
+    pub(super) fn least_effort(&self) -> Option<f64> {
+        let efforts = match self {
+            Self::Problem(point) => {
+                point.states.as_ref().map_or_else(Vec::new, |states| efforts(point, states))
+            }
+            Self::States(states) => states.efforts.clone(),
+        };
+        efforts.into_iter().min_by(|one, other| one.abs().total_cmp(&other.abs()))
     }
 }
 
 /// A mode problem.
 pub(super) struct Point {
-    /// Its mode problem; for `Motion` with the accelerations of the coordinates as outputs.
-    pub(super) parts: Parts,
+    /// Its mode problem; for `Motion` with the accelerations of the coordinates as outputs, for `Effort` with the
+    /// efforts of the drives.
+    parts: Parts,
     /// The coordinates that no drive moves, with their rates.
-    pub(super) free: Vec<(usize, f64)>,
-    /// The patterns of its states with a guided slider between its faces, which the mode problem does not
-    /// tell.
-    pub(super) between_faces: Vec<String>,
+    free: Vec<(usize, f64)>,
+    /// Its states; none if the search did not come to its end.
+    states: Option<States>,
+}
+
+impl Point {
+    /// Finds the states of a mode problem; `between_faces` are the patterns of those with a guided slider between its
+    /// faces, which the mode problem does not tell.
+    pub(super) fn new(
+        parts: Parts,
+        free: Vec<(usize, f64)>,
+        between_faces: Vec<String>,
+        work: Work<'_>,
+    ) -> Self {
+        let states = states(&parts, between_faces, work);
+        Self { parts, free, states }
+    }
+
+    /// Returns whether nothing was found, though a pattern is so near to a boundary that a solution may be hidden.
+    pub(super) fn is_undecided(&self) -> bool {
+        self.states.as_ref().is_some_and(|states| states.undecided)
+    }
 }
 
 /// The patterns of all states of a point.
@@ -134,36 +172,37 @@ pub(super) struct States {
     pub(super) changes: Vec<Vec<SpeedChange>>,
     /// How each of the solutions starts, where contacts that may lift off are at rest.
     pub(super) starts: Option<Vec<String>>,
+    /// With friction in hinges: the effort of the first drive in each solution, if there is one.
+    pub(super) efforts: Vec<f64>,
     /// With friction in hinges and for `Margin`: that of an only solution, if it is decided.
     pub(super) margin: Option<ClassMeaning>,
 }
 
-/// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone.
+/// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone; `bounds` are those
+/// of the classes of `Effort`.
 pub(super) fn class(
-    colour_by: ColourBy,
+    (colour_by, bounds): (ColourBy, &[f64]),
     forwards: Result<&Answer, &'static str>,
     opposite: Option<Result<&Answer, &'static str>>,
-    work: Work<'_>,
 ) -> ClassMeaning {
     let answer = match forwards {
         Ok(answer) => answer,
         Err(reason) => return ClassMeaning::NotSolved { reason },
     };
-    let Some(states) = answer.states(work) else { return ClassMeaning::TooLarge };
-    let undecided = ClassMeaning::NotSolved { reason: "not decided" };
+    let Some(states) = answer.states() else { return ClassMeaning::TooLarge };
     if states.undecided {
-        return undecided;
+        return ClassMeaning::Undecided;
     }
     let moves =
         |states: &States| states.continuum || !(states.solutions.is_empty() && states.gaps.is_empty());
     if colour_by == ColourBy::Jam {
-        let as_in_model = moves(&states);
-        return match opposite.map(|opposite| opposite.map(|answer| answer.states(work))) {
+        let as_in_model = moves(states);
+        return match opposite.map(|opposite| opposite.map(Answer::states)) {
             None | Some(Ok(None)) => ClassMeaning::TooLarge,
             Some(Err(reason)) => ClassMeaning::NotSolved { reason },
-            Some(Ok(Some(other))) if other.undecided => undecided,
+            Some(Ok(Some(other))) if other.undecided => ClassMeaning::Undecided,
             Some(Ok(Some(other))) => {
-                let opposite = moves(&other);
+                let opposite = moves(other);
                 ClassMeaning::Moves {
                     as_in_model,
                     opposite,
@@ -176,7 +215,7 @@ pub(super) fn class(
     if states.continuum {
         return ClassMeaning::Continuum;
     }
-    if !moves(&states) {
+    if !moves(states) {
         return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };
     }
     let number =
@@ -186,15 +225,18 @@ pub(super) fn class(
             margin(&point.parts).unwrap_or(ClassMeaning::TooLarge)
         }
         (ColourBy::Margin, Answer::States(_)) if states.solutions.len() == 1 => {
-            states.margin.clone().unwrap_or(undecided)
+            states.margin.clone().unwrap_or(ClassMeaning::NotSolved { reason: "margin not decided" })
         }
         (ColourBy::Motion, Answer::Problem(point))
             if !(point.free.is_empty() || states.solutions.is_empty()) =>
         {
-            motion(speeds(point, &states))
+            motion(speeds(point, states))
         }
         (ColourBy::Motion, Answer::States(_)) if states.changes.iter().any(|changes| !changes.is_empty()) => {
             motion(states.changes.clone())
+        }
+        (ColourBy::Effort, answer) => {
+            answer.least_effort().map_or(number, |effort| effort::class(effort, bounds))
         }
         // Whoever asks whether it holds asks no mode problem.
         (ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam | ColourBy::Motion | ColourBy::Hold, _) => {
@@ -233,13 +275,20 @@ fn speeds(point: &Point, states: &States) -> Vec<Vec<SpeedChange>> {
     states.sides.iter().map(of_solution).collect()
 }
 
+/// Returns the effort of the first drive in each solution; nothing without drives.
+fn efforts(point: &Point, states: &States) -> Vec<f64> {
+    let line = point.parts.line_to(&point.parts);
+    let of_solution = |sides: &Vec<ContactState>| {
+        line.unknowns(sides, 0.0)?.get(sides.len() + point.parts.couples()).copied()
+    };
+    states.sides.iter().filter_map(of_solution).collect()
+}
+
 /// All states in which no guided slider tips; none if the search did not come to its end.
-fn states(point: &Point, work: Work<'_>) -> Option<States> {
-    let parts = &point.parts;
+fn states(parts: &Parts, between_faces: Vec<String>, work: Work<'_>) -> Option<States> {
     let found = parts.states_within_tolerances(&mut |_| work.flow())?;
     let mut told: Vec<&StateWithinTolerances> = Vec::new();
-    let mut states =
-        States { gaps: point.between_faces.clone(), continuum: found.continuum, ..States::default() };
+    let mut states = States { gaps: between_faces, continuum: found.continuum, ..States::default() };
     for state in &found.states {
         let StateWithinTolerances { sides, force, zero, shares } = state;
         let is_solution = parts.is_solution(sides);
@@ -267,6 +316,8 @@ fn states(point: &Point, work: Work<'_>) -> Option<States> {
             }
         }
     }
+    let is_empty = states.solutions.is_empty() && states.gaps.is_empty();
+    states.undecided = found.in_doubt && is_empty && !states.tips && !states.continuum;
     Some(states)
 }
 

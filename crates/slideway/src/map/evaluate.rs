@@ -2,7 +2,7 @@
 //! else made anew.
 
 use super::class::{Answer, ClassKey, ClassMeaning, Point, class, reason};
-use super::{Axis, ColourBy, solved};
+use super::{Axis, ColourBy, effort, solved};
 use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
@@ -11,6 +11,9 @@ use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::solve::{LastSolution, Parts, SolveOptions, Stages, Trail, states_between_faces};
 use crate::standstill::{HoldOptions, Rests, rests};
+
+/// Points along each side at which efforts are taken to choose their classes.
+const SAMPLES: usize = 17;
 
 /// The mode problems at the corners of the plane, (0, 0), (1, 0), (0, 1), (1, 1), and how well the least
 /// accurate of them is known.
@@ -25,6 +28,8 @@ struct Corners {
 pub(super) struct Evaluator<'a> {
     axes: &'a [Axis; 2],
     colour_by: ColourBy,
+    /// The bounds of the classes of efforts.
+    bounds: Vec<f64>,
     model: &'a Model,
     /// Where mode problems come from; none where statics is asked.
     forwards: Option<Source>,
@@ -43,12 +48,38 @@ struct Source {
 
 impl<'a> Evaluator<'a> {
     /// # Errors
-    /// A quantity on which nothing depends; a model that cannot be turned round.
-    pub(super) fn new(model: &'a Model, axes: &'a [Axis; 2], colour_by: ColourBy) -> Result<Self, Faults> {
+    /// A quantity on which nothing depends; a model that cannot be turned round; efforts without drives.
+    pub(super) fn new(
+        model: &'a Model,
+        axes: &'a [Axis; 2],
+        colour_by: ColourBy,
+        work: Work<'_>,
+    ) -> Result<Self, Faults> {
+        if colour_by == ColourBy::Effort {
+            model.has_drives()?;
+        }
         let source = |model: Model| Source::new(model, axes, colour_by).map(Some);
         let forwards = if colour_by == ColourBy::Hold { None } else { source(model.clone())? };
         let opposite = if colour_by == ColourBy::Jam { source(model.reversed())? } else { None };
-        Ok(Self { axes, colour_by, model, forwards, opposite })
+        let mut evaluator = Self { axes, colour_by, bounds: Vec::new(), model, forwards, opposite };
+        if colour_by == ColourBy::Effort {
+            evaluator.bounds = evaluator.bounds_of_efforts(work);
+        }
+        Ok(evaluator)
+    }
+
+    /// Returns bounds of classes of efforts, from those at evenly spaced points.
+    fn bounds_of_efforts(&self, work: Work<'_>) -> Vec<f64> {
+        let Some(source) = &self.forwards else { return Vec::new() };
+        let share = |place: usize| (place as f64 + 0.5) / SAMPLES as f64;
+        let mut before = Before::default();
+        let places = (0..SAMPLES).flat_map(|j| (0..SAMPLES).map(move |i| [share(i), share(j)]));
+        let effort = |[u, v]: [f64; 2]| {
+            let values = [along(&self.axes[0], u), along(&self.axes[1], v)];
+            source.point(self.axes, values, &mut before, work).ok()?.least_effort()
+        };
+        let efforts = places.take_while(|_| !work.is_over()).filter_map(effort).collect();
+        effort::bounds(efforts, &effort::unit(self.model))
     }
 
     /// Whether mode problems are interpolated.
@@ -103,10 +134,9 @@ impl<'a> Evaluator<'a> {
         let forwards = at(source, there);
         let opposite = self.opposite.as_ref().map(|opposite| at(opposite, back));
         ClassKey(class(
-            self.colour_by,
+            (self.colour_by, &self.bounds),
             forwards.as_ref().map_err(|reason| *reason),
             opposite.as_ref().map(|other| other.as_ref().map_err(|reason| *reason)),
-            work,
         ))
     }
 }
@@ -157,22 +187,32 @@ impl Source {
                 // Margins of what stands still are not computed.
                 let is_margin = stands && self.colour_by == ColourBy::Margin;
                 let colour_by = if is_margin { ColourBy::Modes } else { self.colour_by };
-                let careful = stands || colour_by == ColourBy::Motion || self.model.has_guided_sliders();
+                let of_motion = matches!(colour_by, ColourBy::Motion | ColourBy::Effort);
+                let careful = stands || of_motion || self.model.has_guided_sliders();
                 let found = solved::states(&stages, &model, (colour_by, careful), &mut before.last, work)?;
                 return Ok(Answer::States(found));
             }
             let parts = parts(&stages, self.colour_by)?;
             (parts, stages.accuracy, free(&stages), Some(stages))
         };
-        if parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy) {
-            return Ok(Answer::Problem(Box::new(Point { parts, free, between_faces: Vec::new() })));
+        let is_told = parts.with_free_faces().is_empty() || parts.is_off_boundaries(accuracy);
+        let problem = |between_faces| Point::new(parts, free, between_faces, work);
+        if is_told {
+            let point = problem(Vec::new());
+            if !point.is_undecided() {
+                return Ok(Answer::Problem(Box::new(point)));
+            }
+            let stages = stages.map_or_else(|| Stages::new(&model_at(&self.model, axes, values)?), Ok)?;
+            let model = || model_at(&self.model, axes, values);
+            let found = solved::states(&stages, &model, (self.colour_by, true), &mut before.last, work)?;
+            return Ok(Answer::States(found));
         }
         let model = model_at(&self.model, axes, values)?;
         let stages = stages.map_or_else(|| Stages::new(&model), Ok)?;
         let mut goes_on = |_: &Progress| work.flow();
         let states = states_between_faces(&model, &stages, None, &SolveOptions::default(), &mut goes_on)?;
         let between_faces = states.into_iter().map(|state| state.pattern).collect();
-        Ok(Answer::Problem(Box::new(Point { parts, free, between_faces })))
+        Ok(Answer::Problem(Box::new(problem(between_faces))))
     }
 }
 
@@ -183,9 +223,13 @@ struct Before {
     last: LastSolution,
 }
 
-/// The mode problem of stages, with the accelerations of the coordinates as outputs if these are asked.
+/// The mode problem of stages, with the accelerations of the coordinates or the efforts as outputs if these are asked.
 fn parts(stages: &Stages, colour_by: ColourBy) -> Result<Parts, Faults> {
-    if colour_by == ColourBy::Motion { stages.parts_with_accelerations() } else { stages.parts() }
+    match colour_by {
+        ColourBy::Motion => stages.parts_with_accelerations(),
+        ColourBy::Effort => stages.parts_with_efforts(),
+        _ => stages.parts(),
+    }
 }
 
 /// The coordinates that no drive moves, with their rates.
@@ -264,7 +308,8 @@ mod tests {
             let axes =
                 [x, y].map(|axis| Axis::new(&model, &axis.parse().expect("a range")).expect("an axis"));
             for colour_by in [ColourBy::Modes, ColourBy::Margin, ColourBy::Jam] {
-                let evaluator = Evaluator::new(&model, &axes, colour_by).expect("something varies");
+                let evaluator = undisturbed(|work| Evaluator::new(&model, &axes, colour_by, work))
+                    .expect("something varies");
                 assert!(!evaluator.is_bilinear(), "{name}");
                 let backwards = model.reversed();
                 for points in [(0..32).map(walking).collect::<Vec<_>>(), (0..32).map(jumping).collect()] {
@@ -274,14 +319,14 @@ mod tests {
                         let anew = |model: &Model| {
                             let parts = Stages::new(&model_at(model, &axes, values)?)?.parts()?;
                             assert!(parts.with_free_faces().is_empty(), "{name}");
-                            let point = Point { parts, free: Vec::new(), between_faces: Vec::new() };
+                            let point = undisturbed(|work| Point::new(parts, Vec::new(), Vec::new(), work));
                             Ok(Answer::Problem(Box::new(point)))
                         };
                         let at = |model: &Model| anew(model).map_err(|faults| reason(&faults));
                         let (forwards, opposite) = (at(&model), at(&backwards));
                         let [forwards, opposite] =
                             [&forwards, &opposite].map(|answer| answer.as_ref().map_err(|reason| *reason));
-                        let expected = undisturbed(|work| class(colour_by, forwards, Some(opposite), work));
+                        let expected = class((colour_by, &[]), forwards, Some(opposite));
                         assert_eq!(found, ClassKey(expected), "{name} {colour_by:?} at {values:?}");
                     }
                 }

@@ -19,9 +19,10 @@
 //! # Files
 //! `map` colours a plane: `evaluate.rs` has the mode problem at a point and its states between faces,
 //! `solved.rs` those of a point that is solved by itself, `class.rs` what its solutions come to, `refine.rs`
-//! solves pixels only where neighbours differ.
+//! solves pixels only where neighbours differ, `effort.rs` chooses the classes of efforts.
 
 mod class;
+mod effort;
 mod evaluate;
 mod refine;
 mod report;
@@ -64,6 +65,8 @@ pub enum ColourBy {
     Jam,
     /// The change of the speed of each coordinate that no drive moves, in each solution.
     Motion,
+    /// The effort of the first drive, the least of several solutions.
+    Effort,
     /// Whether it can stay at rest, drives absent.
     Hold,
 }
@@ -79,6 +82,7 @@ impl Choice for ColourBy {
         ),
         (Self::Jam, "jam", "Whether it can move as in the model, and in the opposite direction"),
         (Self::Motion, "motion", "Whether each solution speeds up or slows down"),
+        (Self::Effort, "effort", "The force or torque of the first drive, the least of several solutions"),
         (Self::Hold, "hold", "Whether it can stay at rest, its drives absent"),
     ];
 }
@@ -92,6 +96,7 @@ impl ColourBy {
             Self::Margin => "margin of friction",
             Self::Jam => "directions in which it can move",
             Self::Motion => "what becomes of the speed",
+            Self::Effort => "effort of the drive",
             Self::Hold => "whether it can stay at rest",
         }
     }
@@ -183,7 +188,8 @@ impl Axis {
 /// positions of neighbouring points.
 ///
 /// # Errors
-/// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends. That a
+/// An unknown name, an empty or reversed range, the same quantity twice, one on which nothing depends, efforts of
+/// a model without drives. That a
 /// point cannot be assembled or solved is no error, as it has a class of its own, unless there is no other
 /// class.
 pub fn map(model: &Model, options: &MapOptions) -> Result<MapReport, Faults> {
@@ -205,7 +211,7 @@ pub fn map_with(
 fn map_of(model: &Model, options: &MapOptions, work: Work<'_>) -> Result<MapReport, Faults> {
     let axes = axes(model, options)?;
     let [width, height] = [options.width, options.height].map(|size| size.clamp(1, GREATEST_SIZE));
-    let evaluator = Evaluator::new(model, &axes, options.colour_by)?;
+    let evaluator = Evaluator::new(model, &axes, options.colour_by, work)?;
     let values = |&[i, j]: &[usize; 2]| [axes[0].value(i, width), axes[1].value(j, height)];
     let classes = |points: &[[usize; 2]]| evaluator.classes(points.iter().map(values), work);
     let grid = Grid { width, height, probe: options.probe.max(1) };

@@ -3,7 +3,7 @@
 use super::class::{ClassKey, ClassMeaning};
 use super::evaluate::Evaluator;
 use super::refine::Raster;
-use super::{Axis, ColourBy, MapOptions};
+use super::{Axis, ColourBy, MapOptions, effort};
 use crate::limits::Naming;
 use crate::model::Model;
 use crate::progress::Work;
@@ -187,7 +187,7 @@ pub(super) fn report(
         .iter()
         .zip(&counts)
         .map(|(&old, &pixels)| MapClass {
-            words: words(meaning(old)),
+            words: words(meaning(old), model),
             modes: modes(meaning(old), names.as_ref()),
             meaning: meaning(old).clone(),
             pixels,
@@ -227,14 +227,14 @@ fn guarantee(raster: &Raster<ClassKey>, colour_by: ColourBy, is_bilinear: bool) 
     let source = if colour_by == ColourBy::Hold {
         "Whether it holds was decided at every point, without the rates and drives of the model."
     } else if is_bilinear {
-        "The mode problem depends bilinearly on both, so its numbers were interpolated."
+        "The equations are linear in each of both quantities, so their numbers were interpolated."
     } else {
         "The mechanism was assembled at every point."
     };
     let missed = match raster.grid.probe {
         1 => "Every pixel was solved.".to_owned(),
         probe => format!(
-            "Probes every {probe} pixels and midway between them: regions that lie between probes and touch no known boundary are missed."
+            "A point was solved every {probe} pixels and midway between: a region between such points that touches no known boundary is missed."
         ),
     };
     format!("{source} {missed}")
@@ -246,7 +246,7 @@ fn runs(row: &[u32]) -> Vec<[usize; 2]> {
     runs.map(|run| [run[0] as usize, run.len()]).collect()
 }
 
-fn words(meaning: &ClassMeaning) -> String {
+fn words(meaning: &ClassMeaning, model: &Model) -> String {
     let without = |tips: bool| if tips { "a guided slider tips" } else { "friction locks it" };
     match meaning {
         ClassMeaning::Locked => format!("no solution: {}", without(false)),
@@ -276,6 +276,7 @@ fn words(meaning: &ClassMeaning) -> String {
         ClassMeaning::Margin { from, to: None } => {
             format!("one solution; friction may grow more than {} times", precise(*from))
         }
+        ClassMeaning::Effort { from, to } => effort(model, *from, *to),
         ClassMeaning::Moves { as_in_model: true, opposite: true, .. } => {
             "can move in both directions".to_owned()
         }
@@ -310,10 +311,24 @@ fn words(meaning: &ClassMeaning) -> String {
         ClassMeaning::Rest { holds: Some(true), .. } => "holds".to_owned(),
         ClassMeaning::Rest { holds: Some(false), .. } => "does not hold".to_owned(),
         ClassMeaning::Rest { holds: None, .. } => "whether it holds is not decided".to_owned(),
+        ClassMeaning::Undecided => "not decided: on the verge of jamming, take it as jammed".to_owned(),
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
     }
+}
+
+/// Returns what the first drive needs: "push needs 20 to 25 N".
+fn effort(model: &Model, from: Option<f64>, to: Option<f64>) -> String {
+    let unit = effort::unit(model);
+    let range = match (from, to) {
+        (Some(from), Some(to)) => format!("{} to {}", unit.precise_number(from), unit.precise(to)),
+        (Some(from), None) => format!("{} or more", unit.precise(from)),
+        (None, Some(to)) => format!("less than {}", unit.precise(to)),
+        (None, None) => format!("any {}", if unit.si() == "N" { "force" } else { "torque" }),
+    };
+    let name = model.drives.first().map_or_else(String::new, |drive| drive.name.to_string());
+    format!("{name} needs {range}")
 }
 
 /// The contact modes of a class, one by one.

@@ -67,6 +67,7 @@ fn of_report(report: &SolveReport, stages: &Stages) -> States {
         starts: report.starts(),
         tips: !report.rejected.is_empty(),
         undecided: report.status == Status::Unknown,
+        efforts: report.solutions.iter().filter_map(|one| Some(one.drives.first()?.effort)).collect(),
         changes: report.solutions.iter().map(|solution| changes(solution, stages)).collect(),
         ..States::default()
     }

@@ -167,6 +167,18 @@ impl Model {
         !others.any(|id| self.uses(id, parameter))
     }
 
+    /// Refuses a model without drives, of which nothing that needs an effort can be asked.
+    ///
+    /// # Errors
+    /// No drive.
+    pub(crate) fn has_drives(&self) -> Result<(), Faults> {
+        if self.drives.is_empty() {
+            let coordinate = self.coordinates.first().map(|coordinate| coordinate.name.to_string());
+            return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
+        }
+        Ok(())
+    }
+
     /// Whether no drive moves a coordinate, counted from 0.
     pub(crate) fn is_free(&self, coordinate: usize) -> bool {
         self.drives.iter().all(|drive| drive.coordinate.index() != coordinate)

@@ -233,6 +233,9 @@ impl SolveReport {
                 SpeedChange::Undecided if is_only => {
                     "has one solution; whether it speeds up or slows down is not decided".to_owned()
                 }
+                SpeedChange::MayStart if is_only => {
+                    "has one solution; whether it starts to move is not decided".to_owned()
+                }
                 change if is_only => change.in_words().to_owned(),
                 change => format!("{name} {}", change.in_words()),
             };

@@ -3,10 +3,13 @@
 use super::Verdict;
 use crate::units::brief;
 
-/// The effort of a drive, with friction and without: "push needs 36.36 N (20 N without friction)".
+/// The effort of a drive, with friction and without: "push needs 36.36 N (20 N without friction)", "push needs 16 N, all
+/// of it against friction".
 pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str) -> String {
     if effort == without_friction {
         format!("{drive} needs {effort}, as without friction")
+    } else if without_friction.starts_with("0 ") {
+        format!("{drive} needs {effort}, all of it against friction")
     } else {
         format!("{drive} needs {effort} ({without_friction} without friction)")
     }

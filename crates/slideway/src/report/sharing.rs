@@ -108,19 +108,19 @@ impl LoadSharing {
             1 => "1 self-stress".to_owned(),
             several => format!("{several} self-stresses"),
         };
-        let mut lines =
-            vec![format!("Redundant guides with {degree}: {} share their load {how}.", groups.join("; "))];
+        let groups = groups.join(" share a load, and so do ");
+        let share = if self.groups.len() == 1 { " share a load" } else { "" };
+        let mut lines = vec![format!("Redundant guides: {groups}{share}, {how} ({degree}).")];
         if let Some(ratios) = &self.stiffness_ratios {
             let tried = ratios.tried;
             lines.push(if ratios.same {
-                format!("The contact modes are the same for stiffness ratios from 0.1 to 10 ({tried} combinations).")
+                format!("All ratios of stiffnesses from 0.1 to 10 ({tried} combinations) give these contact modes.")
             } else if ratios.others.is_empty() {
-                format!("Not all of these contact modes remain for stiffness ratios from 0.1 to 10 ({tried} combinations).")
+                format!("With some ratios of stiffnesses from 0.1 to 10 ({tried} combinations) not all of these contact modes remain.")
             } else {
                 let others: Vec<String> = ratios.others.iter().map(|signs| spaced(signs)).collect();
                 format!(
-                    "The contact modes depend on stiffness ratios: from 0.1 to 10 ({tried} combinations) there are also \
-                     the signs {}.",
+                    "With other ratios of stiffnesses from 0.1 to 10 ({tried} combinations) there are also the signs {}.",
                     others.join(", ")
                 )
             });

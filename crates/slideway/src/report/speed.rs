@@ -22,6 +22,8 @@ pub enum SpeedChange {
     StaysAtRest,
     /// Its acceleration has no proven bounds.
     Undecided,
+    /// Its rate is zero, and its acceleration has no proven bounds.
+    MayStart,
 }
 
 impl SpeedChange {
@@ -33,8 +35,8 @@ impl SpeedChange {
 
     /// The change for a coordinate with this rate and this sign of its acceleration, if that is known.
     pub(crate) fn of_sign(rate: f64, sign: Option<i8>) -> Self {
-        let Some(sign) = sign else { return Self::Undecided };
         let direction = i8::from(rate > 0.0) - i8::from(rate < 0.0);
+        let Some(sign) = sign else { return if direction == 0 { Self::MayStart } else { Self::Undecided } };
         match (direction, direction * sign) {
             (0, _) if sign > 0 => Self::StartsForwards,
             (0, _) if sign < 0 => Self::StartsBackwards,
@@ -55,6 +57,7 @@ impl SpeedChange {
             Self::StartsBackwards => "starts backwards",
             Self::StaysAtRest => "stays at rest",
             Self::Undecided => "may speed up or slow down: its acceleration has no proven bounds",
+            Self::MayStart => "may start to move or stay at rest: its acceleration has no proven bounds",
         }
     }
 }

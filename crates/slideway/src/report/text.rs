@@ -162,7 +162,11 @@ impl Text<'_> {
                 tried(patterns, report.sharing.as_ref().is_some_and(|sharing| sharing.self_stresses > 0))
             }
             None => {
-                format!("Search of {}: {}.", count_u64(report.nodes, "node", "nodes"), report.strategy)
+                format!(
+                    "How it was found, in {}: {}.",
+                    count_u64(report.nodes, "step", "steps"),
+                    report.strategy
+                )
             }
         });
         for group in &report.jammed_groups {
@@ -267,7 +271,7 @@ impl Text<'_> {
         let Some(margins) = self.report.margins.as_ref().filter(|_| self.is_verbose()) else { return };
         if let Some(critical) = &margins.critical_contact {
             self.line(&format!(
-                "The most critical contact is {}: {} times its friction alone changes the number of solutions.",
+                "The most critical contact is {}: with {} times its friction, and that of the others as it is, the number of solutions changes.",
                 critical.contact,
                 number(critical.factor)
             ));
@@ -281,9 +285,9 @@ impl Text<'_> {
         ];
         let factors = factors.into_iter().filter_map(|(what, factor)| Some((what, factor?)));
         let factors: Vec<String> =
-            factors.map(|(what, factor)| format!("{what} {} times", number(factor))).collect();
+            factors.map(|(what, factor)| format!("{what} {}", number(factor))).collect();
         if !factors.is_empty() {
-            self.line(&format!("Compared with this friction: {}.", factors.join("; ")));
+            self.line(&format!("As a factor on all friction: {}.", factors.join("; ")));
         }
     }
 
@@ -504,6 +508,7 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
     let (length, acceleration) = (units.of("m"), units.of("m/s^2"));
     let deflections = contacts.iter().filter_map(|contact| contact.deflection);
     let greatest_deflection = deflections.fold(0.0_f64, |most, value| most.max(value.abs()));
+    let fastest = contacts.iter().map(|contact| contact.sliding_velocity.abs()).fold(0.0, f64::max);
     let greatest_pressure = contacts.iter().filter_map(|contact| contact.pressure).fold(0.0, f64::max);
     let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];
     header.push(speed.title("sliding"));
@@ -519,7 +524,7 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
             contact.name.clone(),
             force.against(contact.normal_force, scale),
             force.against(contact.friction_force, scale),
-            speed.number(contact.sliding_velocity),
+            speed.against(contact.sliding_velocity, fastest),
         ];
         row.extend(has_couple.then(|| optional(contact.couple, &couple)));
         row.extend(has_pad.then(|| {

@@ -235,9 +235,8 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let varied = options.vary.of(model)?;
     let range = options.vary.ends(&varied, || range_around(model, &varied))?;
     let opposite = if options.both_directions { Some(options.vary.of(&model.reversed())?) } else { None };
-    if matches!(options.against, Against::Effort { .. } | Against::Efficiency) && model.drives.is_empty() {
-        let coordinate = model.coordinates.first().map(|coordinate| coordinate.name.to_string());
-        return Err(Fault::general(FaultKind::NoDrives { coordinate }).into());
+    if matches!(options.against, Against::Effort { .. } | Against::Efficiency) {
+        model.has_drives()?;
     }
     if let Against::Pressure { contact } = &options.against {
         pad_of(model, contact.as_deref())?;

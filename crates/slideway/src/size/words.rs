@@ -26,7 +26,7 @@ pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind,
     };
     let step = (to - from) / steps as f64;
     format!(
-        "{} evenly spaced values were tried; crossings of the {wanted} between them were bisected to machine precision, and dips and humps were followed to their extrema. Only a jump {level} there and back, or a second dip, within two steps of {} could be missed.",
+        "{} evenly spaced values were tried. Where the {wanted} is crossed between two of them, the place was found by bisection; dips and humps were followed to their lowest and highest points. Only a jump {level} there and back, or a second dip, within two steps of {} could be missed.",
         steps + 1,
         shown_in.show(step)
     )

@@ -14,6 +14,8 @@ pub(crate) struct StatesWithinTolerances {
     pub(crate) states: Vec<StateWithinTolerances>,
     /// Whether there are infinitely many besides.
     pub(crate) continuum: bool,
+    /// Whether a pattern is so near to a boundary that rounding may hide a state.
+    pub(crate) in_doubt: bool,
 }
 
 /// One of these states.
@@ -40,7 +42,7 @@ impl StatesWithinTolerances {
             states.iter().map(|state| StateWithinTolerances::of_small(state, contacts)).collect()
         });
         if let Some(states) = by_elimination {
-            return Some(Self { states, continuum: false });
+            return Some(Self { states, continuum: false, in_doubt: false });
         }
         let options = SearchOptions { certify: false, ..SearchOptions::default() };
         let result = search(problem, &options, callback);
@@ -68,7 +70,8 @@ impl StatesWithinTolerances {
             }
         });
         let states = pressed.chain(between).collect();
-        Self { states, continuum: lists.singular.iter().any(|mode| mode.set.is_continuum()) }
+        let continuum = lists.singular.iter().any(|mode| mode.set.is_continuum());
+        Self { states, continuum, in_doubt: true }
     }
 }
 

@@ -101,7 +101,10 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
     let unit = report.units.of(load.unit);
     let name = &load.name;
     let one = |range: &Range| match (range.least, range.greatest, load.unit) {
-        (None, None, _) => format!("any `{name}`"),
+        (None, None, _) => format!("any `{name}`, reversed as well"),
+        (Some(0.0), None, _) => format!("any `{name}`"),
+        (None, Some(0.0), _) => format!("any reversed `{name}`"),
+        (Some(0.0), Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
         (Some(least), None, "") => format!("{} times `{name}` or more", brief(least)),
         (None, Some(greatest), "") => format!("{} times `{name}` or less", brief(greatest)),
         (Some(least), Some(greatest), "") if least == greatest => {

@@ -266,7 +266,7 @@ fn the_friction_that_holds_a_box_is_the_tangent_of_its_slope() {
     assert!((load.threshold.value.unwrap() * 0.6 - tangent).abs() < 1e-12, "{:?}", load.threshold);
     assert!(load.certain_from.is_some());
     let upright = held(BOX, &[], &gravity);
-    let expected = "It holds. It holds 0 times `gravity` or more. By itself `gravity` is held, however great, from mu = 0.364 (now 0.6).";
+    let expected = "It holds. It holds any `gravity`. By itself `gravity` is held, however great, from mu = 0.364 (now 0.6).";
     assert_eq!(upright.answer(), expected);
     let tipping = held(BOX, &[("b", "140 mm")], &gravity);
     assert_eq!(tipping.load.unwrap().threshold.value, None);

@@ -265,7 +265,7 @@ impl Page<'_, SimulateReport> {
             ));
         }
         self.line(&format!(
-            "Joints had drifted by at most {} of the size of the mechanism before each correction.",
+            "Before each correction joints were open by at most {} of the size of the mechanism.",
             if report.position_drift == 0.0 {
                 "0".to_owned()
             } else {

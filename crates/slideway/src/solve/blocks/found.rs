@@ -33,7 +33,7 @@ impl BlocksFound<'_> {
             }
             None => "",
         };
-        format!("friction in hinges, by sectors of the directions of their forces{why}")
+        format!("the directions of the forces at hinges with friction were divided into sectors{why}")
     }
 
     /// What keeps the list of solutions from being proven complete.
