@@ -378,12 +378,11 @@ fn event_reports(history: &History) -> Vec<EventReport> {
     reported.map(|event| event_report(history, event, &mut reader)).collect()
 }
 
-/// The verdict on what follows an event: that of the decision, where one was made and found it.
+/// The verdict on what follows an event: that of the decision, where it found one.
 fn attainable(history: &History, event: &Event, reader: &mut Reader<'_>) -> Option<Verdict> {
     let decided = event.taken.and_then(|taken| event.successors.get(taken)).map(|taken| taken.verdict);
-    let is_alone = event.successors.len() == 1;
     let verdict = match (decided, &event.phase) {
-        (Some(verdict), _) if is_alone || verdict != Verdict::NotComputed => verdict,
+        (Some(verdict), _) if verdict != Verdict::NotComputed => verdict,
         (_, Some(phase)) if !phase.is_at_rest() => {
             verdict_on(&history.mechanism, reader.configuration(event.time)?, phase)
         }
