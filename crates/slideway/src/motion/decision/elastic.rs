@@ -12,6 +12,7 @@ use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::{Attainability, Verdict};
 use crate::solve::mode_problem;
 use nalgebra::DVector;
+use std::borrow::Cow;
 
 const STICKS: &str = "every joint sticks: no friction follows the normal forces";
 const IN_GAP: &str = "a contact is between its faces";
@@ -67,7 +68,10 @@ fn examine<T>(
     }
     let stuck = (0..phase.joints.len()).filter(|&joint| sticks(joint));
     let (mechanism, equations) = locked(instant, configuration, stuck);
-    let influence = Influence::new(&equations);
+    let influence = match &equations {
+        Cow::Borrowed(_) => Cow::Borrowed(&instant.influence),
+        Cow::Owned(equations) => Cow::Owned(Influence::new(equations)),
+    };
     let signs =
         DVector::from_fn(phase.contacts.len(), |k, _| match instant.joint_of(k).map(|j| phase.joints[j]) {
             Some(JointPhase::Sliding(sign)) => sign,
@@ -86,19 +90,19 @@ fn examine<T>(
 }
 
 /// The mechanism with these joints locked, as far as the locks are independent.
-fn locked(
-    instant: &Instant<'_>,
+fn locked<'i>(
+    instant: &'i Instant<'_>,
     configuration: &Configuration,
     stuck: impl Iterator<Item = usize>,
-) -> (Mechanism, KineticEquations) {
-    let mut found = (instant.mechanism_at_speeds(), instant.equations.clone());
+) -> (Cow<'i, Mechanism>, Cow<'i, KineticEquations>) {
+    let mut found = (instant.mechanism_at_speeds(), Cow::Borrowed(&instant.equations));
     for joint in stuck {
         let id = instant.joints[joint].id;
         let Some(slider) = instant.mechanism.slider(id) else { continue };
-        let mut mechanism = found.0.clone();
+        let mut mechanism = found.0.clone().into_owned();
         lock(&mut mechanism, slider, &instant.mechanism.joints[id.index()], id);
         if let Ok(equations) = KineticEquations::new(&mechanism, configuration) {
-            found = (mechanism, equations);
+            found = (Cow::Owned(mechanism), Cow::Owned(equations));
         }
     }
     found

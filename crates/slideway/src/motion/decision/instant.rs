@@ -201,10 +201,15 @@ impl<'m> Instant<'m> {
     }
 
     /// The mechanism with the friction at the sliding speeds.
-    pub(super) fn mechanism_at_speeds(&self) -> Mechanism {
-        let mut mechanism = self.mechanism.clone();
-        mechanism.contacts = self.contacts.to_vec();
-        mechanism
+    pub(super) fn mechanism_at_speeds(&self) -> Cow<'_, Mechanism> {
+        match &self.contacts {
+            Cow::Borrowed(_) => Cow::Borrowed(self.mechanism),
+            Cow::Owned(contacts) => {
+                let mut mechanism = self.mechanism.clone();
+                mechanism.contacts.clone_from(contacts);
+                Cow::Owned(mechanism)
+            }
+        }
     }
 
     /// The sliding joint of a contact.

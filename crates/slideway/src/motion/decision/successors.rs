@@ -1,7 +1,7 @@
 //! The phases that can follow at an instant.
 
 use super::assessment::Assessment;
-use super::elastic::attainability;
+use super::elastic::{attainability, verdict};
 use super::growth::{Ended, standing};
 use super::instant::Instant;
 use super::parts::{Detail, GroupPhase, PhaseSearch};
@@ -18,7 +18,6 @@ use crate::report::{Attainability, Verdict};
 
 /// If there are more combinations of what independent groups of joints can do, they are not all listed.
 const MOST_COMBINATIONS: usize = 256;
-const ALONE: &str = "no other phase can follow";
 
 /// All phases that can follow at an instant.
 #[derive(Debug, Clone, Default)]
@@ -128,8 +127,8 @@ pub fn successors(
 
 /// The phases of [`successors`], with only what is needed to order them: patterns of sliding that are far
 /// from any state are not assessed, sticking contacts have the sides of the first state with a margin, and
-/// attainability is reduced to the verdict. If only one phase can follow, its attainability is not
-/// determined, and `continues` only says whether it is the previous phase.
+/// attainability is reduced to the verdict. If only one phase can follow, `continues` only says whether it is
+/// the previous phase.
 ///
 /// # Errors
 /// As [`successors`].
@@ -204,8 +203,12 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
         return Err(Fault::general(FaultKind::TooManyStates { states, limit }).into());
     }
     without_copies(search, &mut found.list);
-    if found.list.len() == 1 && detail == Detail::Order {
-        found.list[0].attainability = Attainability::without_eigenvalues(Verdict::NotComputed, ALONE);
+    if let ([alone], Detail::Order) = (&mut found.list[..], detail) {
+        // Nothing was to be ordered, so that no group has a verdict.
+        let rests = alone.phase.is_at_rest();
+        let whole = || verdict(search.instant, event.configuration, &alone.phase);
+        let verdict = if rests { Verdict::NotComputed } else { whole() };
+        alone.attainability = Attainability::without_eigenvalues(verdict, "");
     }
     Ok(found)
 }

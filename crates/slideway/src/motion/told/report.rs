@@ -6,12 +6,13 @@ use crate::choice::kinds;
 use crate::configuration::{Configuration, unit};
 use crate::ids::ContactId;
 use crate::mechanism::{Mechanism, Pad};
+use crate::motion::decision::rules::Continuation;
 use crate::motion::decision::verdict_on;
 use crate::motion::moving::cause::{Cause, CauseKind};
 use crate::motion::moving::energy::{kinetic, potential};
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, modes_in_words};
-use crate::motion::record::history::{End, Energy, History, PhaseInterval};
+use crate::motion::record::history::{End, Energy, History, PhaseInterval, Reader};
 use crate::pattern::phase::JointPhase;
 use crate::report::{CoordinateState, ModelSummary, Verdict};
 use serde::Serialize;
@@ -374,36 +375,26 @@ fn end_report(history: &History, options: &SimulateOptions, events: &[EventRepor
 fn event_reports(history: &History) -> Vec<EventReport> {
     let mut reader = history.reader();
     let reported = history.events.iter().filter(|event| event.is_reported());
-    reported
-        .map(|event| {
-            let configuration = reader.configuration(event.time).unwrap_or(&history.initial);
-            event_report(history, event, configuration)
-        })
-        .collect()
+    reported.map(|event| event_report(history, event, &mut reader)).collect()
 }
 
-/// The verdict on what follows an event: with several possible modes it is known, else it is determined.
-fn attainable(history: &History, event: &Event, configuration: &Configuration) -> Option<Verdict> {
-    let taken = event.taken.and_then(|taken| event.successors.get(taken));
-    let known = taken.map(|taken| taken.verdict).filter(|verdict| *verdict != Verdict::NotComputed);
-    let determined = || {
-        let phase = event.phase.as_ref().filter(|phase| !phase.is_at_rest())?;
-        Some(verdict_on(&history.mechanism, configuration, phase))
+/// The verdict on what follows an event: that of the decision, where it found one.
+fn attainable(history: &History, event: &Event, reader: &mut Reader<'_>) -> Option<Verdict> {
+    let decided = event.taken.and_then(|taken| event.successors.get(taken)).map(|taken| taken.verdict);
+    let verdict = match (decided, &event.phase) {
+        (Some(verdict), _) if verdict != Verdict::NotComputed => verdict,
+        (_, Some(phase)) if !phase.is_at_rest() => {
+            verdict_on(&history.mechanism, reader.configuration(event.time)?, phase)
+        }
+        _ => Verdict::NotComputed,
     };
-    known.or_else(determined).filter(|verdict| *verdict != Verdict::NotComputed)
+    (verdict != Verdict::NotComputed).then_some(verdict)
 }
 
-fn event_report(history: &History, event: &Event, configuration: &Configuration) -> EventReport {
+fn event_report(history: &History, event: &Event, reader: &mut Reader<'_>) -> EventReport {
     let mechanism = &history.mechanism;
-    let branch = |(index, successor): (usize, &crate::motion::decision::rules::Continuation)| BranchReport {
-        number: index + 1,
-        mode: successor.phase.pattern(mechanism),
-        words: modes_in_words(mechanism, configuration, &successor.phase),
-        taken: event.taken == Some(index),
-        continues: successor.continues,
-        attainable: successor.verdict,
-    };
-    let several = event.successors.len() > 1;
+    let attainable = attainable(history, event, reader);
+    let branches = if event.successors.len() > 1 { branches(history, event, reader) } else { Vec::new() };
     let lost = event.causes.iter().map(|cause| match cause {
         Cause::Jams { energy_lost } => *energy_lost,
         Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
@@ -421,15 +412,26 @@ fn event_report(history: &History, event: &Event, configuration: &Configuration)
             .collect(),
         words: event.words.clone(),
         mode: event.phase.as_ref().map(|phase| phase.pattern(mechanism)),
-        attainable: attainable(history, event, configuration),
-        branches: if several {
-            event.successors.iter().enumerate().map(branch).collect()
-        } else {
-            Vec::new()
-        },
+        attainable,
+        branches,
         branches_left_out: event.left_out,
         energy_lost: lost.sum(),
     }
+}
+
+/// The modes in which the motion could go on after an event.
+fn branches(history: &History, event: &Event, reader: &mut Reader<'_>) -> Vec<BranchReport> {
+    let mechanism = &history.mechanism;
+    let configuration = reader.configuration(event.time).unwrap_or(&history.initial);
+    let branch = |(index, successor): (usize, &Continuation)| BranchReport {
+        number: index + 1,
+        mode: successor.phase.pattern(mechanism),
+        words: modes_in_words(mechanism, configuration, &successor.phase),
+        taken: event.taken == Some(index),
+        continues: successor.continues,
+        attainable: successor.verdict,
+    };
+    event.successors.iter().enumerate().map(branch).collect()
 }
 
 fn phases(history: &History) -> Vec<PhaseReport> {
