@@ -25,7 +25,6 @@ use super::stages::Stages;
 use super::standing::check_standing;
 use super::standing::polyhedron::{Extremes, Polyhedron};
 use super::state::{Held, State, pattern, signs};
-use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
