@@ -207,7 +207,7 @@ fn rigid_rails_hold_what_their_places_allow(
 /// Rails that are out of line by more than their play cannot be put together, at rest neither.
 #[test]
 fn rigid_rails_out_of_line_are_refused() {
-    let bent = RIGID_RAILS.replace("play = \"play\"", "play = \"play\"\nmisalignment = { front = \"1 mm\" }");
+    let bent = RIGID_RAILS.replace("play = \"play\"", "play = \"play\"\nfront = { misalignment = \"1 mm\" }");
     let faults = hold(&Model::parse(&bent).unwrap(), &HoldOptions::default()).unwrap_err();
     assert!(matches!(faults.sorted()[0].kind, FaultKind::OutOfLine { .. }), "{faults}");
 }
