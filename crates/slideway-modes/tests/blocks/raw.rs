@@ -109,7 +109,7 @@ fn what_is_no_equation_is_refused() {
 
 /// Regular matrices that intervals do not show to be regular. In the first, `x = (-2 + 5 s/2, (2 - 1e300 x_1)/7, s)` with
 /// `s = 5.5e-300` but for 1e-150 of it, by elimination in rationals for either sign of `x_1`; the second is off a
-/// singular one by one rounding, with `x = (1, 1)`; in the third `x_2` is beyond the range, in units of its own.
+/// singular one by one rounding, with `x = (-1, 1)`; in the third `x_2` is beyond the range, in units of its own.
 #[test]
 fn a_matrix_in_doubt_is_decided_exactly() {
     let last = 1.0 + f64::EPSILON;
@@ -124,9 +124,9 @@ fn a_matrix_in_doubt_is_decided_exactly() {
         (
             dmatrix![1.0, 1.0; 1.0, last],
             DMatrix::zeros(2, 1),
-            dvector![2.0, 1.0 + last],
+            dvector![0.0, f64::EPSILON],
             vec![2],
-            vec![1.0, 1.0],
+            vec![-1.0, 1.0],
         ),
         (dmatrix![1.0, 0.0; 1e300, 1e-300], DMatrix::zeros(2, 2), dvector![1.0, 1.0], vec![1, 1], vec![1.0]),
     ];
