@@ -154,15 +154,12 @@ impl Words<'_> {
         let wedged = match report.wedged {
             None => String::new(),
             Some(margin) if margin >= 1.0 - SAME => {
-                format!(
-                    "; only if something has wedged it would it, with a safety factor of {}",
-                    brief(margin)
-                )
+                format!("; only while wedged it does, with a safety factor of {}", brief(margin))
             }
-            Some(margin) => format!(
-                "; only if something has wedged it would it, from {} times its static friction on",
-                brief(margin.recip())
-            ),
+            Some(margin) => {
+                let growth = brief(margin.recip());
+                format!("; only while wedged it would, from {growth} times its static friction on")
+            }
         };
         format!("{model}: {told}{wedged}.")
     }
