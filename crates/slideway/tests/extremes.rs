@@ -106,16 +106,16 @@ fn states_beyond_all_digits_are_refused_at_once() {
 /// callback ends the work, no further proof is begun.
 #[test]
 fn the_proof_of_one_solution_of_many_pins_ends_where_the_callback_says_so() {
-    let report = solve_with(&rough_chain(12), &SolveOptions::default(), &mut |progress| {
+    let report = solve_with(&hanging_chain(12), &SolveOptions::default(), &mut |progress| {
         if progress.counted == "nodes" { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let report = report.unwrap();
     assert_eq!((report.status, report.partial, report.solutions.len()), (Status::Unknown, true, 0));
-    assert_eq!(solve(&rough_chain(12)).unwrap().status, Status::One);
+    assert_eq!(solve(&hanging_chain(12)).unwrap().status, Status::One);
 }
 
 /// Bars of 0.1 m and 0.1 kg that hang straight down and turn to and fro.
-fn rough_chain(bars: usize) -> Model {
+fn hanging_chain(bars: usize) -> Model {
     let point = |at: usize| {
         let (x, middle) = (0.1 * at as f64, 0.1 * at as f64 + 0.05);
         format!("p{at} = [0, {}]\nc{at} = [0, {}]\n", -x, -middle)
