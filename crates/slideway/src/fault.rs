@@ -413,6 +413,11 @@ pub enum FaultKind {
     RigidWithoutPlay { contacts: Vec<String> },
     #[error("{question} is not computed for press fits: {}", listed(contacts))]
     PressFit { question: &'static str, contacts: Vec<String> },
+    #[error(
+        "{question} is not computed beside contacts that stand still while the rest moves: {}",
+        listed(contacts)
+    )]
+    BesideStanding { question: &'static str, contacts: Vec<String> },
     #[error("{question} is not computed for contacts that may lift off: {}", listed(contacts))]
     OneSided { question: &'static str, contacts: Vec<String> },
     #[error(
@@ -442,11 +447,6 @@ pub enum FaultKind {
     PreloadOfPressFit { contacts: Vec<String> },
     #[error("the play of {contact} is negative for some values only, which makes a press fit of it")]
     PlayChangesSign { contact: String },
-    #[error(
-        "whether it holds at rest is not determined by rigid guides that share a load: pressed against each other, {} could hold any load",
-        listed(contacts)
-    )]
-    RigidAtRest { contacts: Vec<String> },
     #[error("this question is not answered for hinges with friction: {}", listed(hinges))]
     FrictionInHinges { hinges: Vec<String> },
     #[error("{question} is not computed for guides that share a load: {}", listed(joints))]
@@ -634,9 +634,6 @@ impl FaultKind {
                 "leave their friction out, with `mu = 0` or `friction_radius = 0` at each hinge"
                     .to_owned(),
             ),
-            Self::RigidAtRest { .. } => Some(
-                "give their `stiffness`, in N/m: then their deflection says how hard they can be pressed".to_owned(),
-            ),
             Self::StiffnessOfSome { .. } => Some("give `stiffness` for each of them, or for none".to_owned()),
             Self::RigidWithoutPlay { .. } => Some(
                 "give their `stiffness`, in N/m: then the softer one yields, and play and misalignment count against it"
@@ -711,6 +708,13 @@ impl FaultKind {
             Self::PressFit { .. } => format!(
                 "give a play of zero or more; press fits that slide under a given load are for `{}`, `limits`, `drive`, `size`, `sweep` and `map`, those at rest for `hold`",
                 face.question("solve")
+            ),
+            Self::BesideStanding { .. } => format!(
+                "their friction is a range: `{} {}` says from which factor of friction on there is no solution, and `{}` with {} for which values all solutions keep a greatest force; to leave that friction out write `mu = 0` there",
+                face.question("limits"),
+                face.option_with("vary", crate::model::FRICTION),
+                face.question("size"),
+                face.option("max-normal-force")
             ),
             Self::OneSided { .. } => format!(
                 "`{}`, `hold`, and while they slide `sweep`, `map`, `limits`, `size` and `drive` know them; where they are sure to stay closed, a `pin_in_slot` or a `block_slider` may stand for them",

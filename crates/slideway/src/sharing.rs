@@ -58,6 +58,11 @@ pub fn shared_load<T: Real>(
     }))
 }
 
+/// Whether the faces that share a load do not yield.
+pub(crate) fn is_rigid(shared: &SharedLoad) -> bool {
+    shared.compliance.iter().all(|compliance| *compliance == 0.0)
+}
+
 /// How redundant guides share their load, in names, given their self-stresses; none if nothing is in excess.
 ///
 /// # Errors

@@ -355,7 +355,7 @@ fn check_answers() {
             checked(PIPE_CLAMP, &[]),
             "Ready for: hold. For solve, give a mass (or a drive) and a rate. For simulate, give a mass (or a drive).",
         ),
-        (checked(EQUAL_PLAY, &[]), "Ready for: solve, drive. Not for hold, simulate: see below."),
+        (checked(EQUAL_PLAY, &[]), "Ready for: solve, drive, hold. Not for simulate: see below."),
         (checked("drawer", &[("mu", "30")]), "Ready for: solve, drive, hold, simulate. 1 warning."),
         (checked(SHORT_ROD, &[]), "No question can be answered in this state: 1 fault."),
     ];

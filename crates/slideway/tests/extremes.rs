@@ -95,6 +95,55 @@ fn states_far_from_the_drawing_are_refused_after_so_many_steps() {
     assert!(matches!(only(&turned), FaultKind::TooFar { steps: 5000, .. }), "{turned}");
 }
 
+/// Where rounding is as great as the mechanism itself nothing is sought: the thread of 5 mm stays in the drawing.
+#[test]
+fn states_beyond_all_digits_are_refused_at_once() {
+    let away = faults("screw", &Settings::default().position("s", "1e30 m"));
+    assert!(matches!(only(&away), FaultKind::TooFar { steps: 0, .. }), "{away}");
+}
+
+/// A straight chain of rough pins has one solution for every load. Its proof takes seconds with hundreds of pins: once the
+/// callback ends the work, no further proof is begun.
+#[test]
+fn the_proof_of_one_solution_of_many_pins_ends_where_the_callback_says_so() {
+    let report = solve_with(&hanging_chain(12), &SolveOptions::default(), &mut |progress| {
+        if progress.counted == "nodes" { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let report = report.unwrap();
+    assert_eq!((report.status, report.partial, report.solutions.len()), (Status::Unknown, true, 0));
+    assert_eq!(solve(&hanging_chain(12)).unwrap().status, Status::One);
+}
+
+/// Bars of 0.1 m and 0.1 kg that hang straight down and turn to and fro.
+fn hanging_chain(bars: usize) -> Model {
+    let point = |at: usize| {
+        let (x, middle) = (0.1 * at as f64, 0.1 * at as f64 + 0.05);
+        format!("p{at} = [0, {}]\nc{at} = [0, {}]\n", -x, -middle)
+    };
+    let mut text = format!("gravity = 9.81\n[points]\n{}", (0..=bars).map(point).collect::<String>());
+    for bar in 0..bars {
+        let (next, before) = (bar + 1, if bar == 0 { "ground".to_owned() } else { format!("b{}", bar - 1) });
+        let rate = if bar % 2 == 0 { 0.1 } else { -0.1 };
+        text += &format!(
+            r#"
+            [bodies.b{bar}]
+            points = ["p{bar}", "p{next}", "c{bar}"]
+            mass = 0.1
+            moment_of_inertia = 8e-5
+            centre_of_mass = "c{bar}"
+            [joints.j{bar}]
+            type = "hinge"
+            between = ["b{bar}.p{bar}", "{before}.p{bar}"]
+            friction_radius = 0.0005
+            [coordinates.q{bar}]
+            rotation = "b{bar}"
+            rate = {rate}
+            "#
+        );
+    }
+    Model::parse(&text).unwrap_or_else(|faults| panic!("{faults}"))
+}
+
 #[test]
 fn the_way_from_the_drawing_ends_where_the_callback_says_so() {
     let model = Model::parse(find("slider-crank").unwrap().text).unwrap();

@@ -107,6 +107,46 @@ fn what_is_no_equation_is_refused() {
     assert!(matches!(new(Some(DMatrix::zeros(2, 2)), &[1, 2]), Err(ModeProblemError::Shape { .. })));
 }
 
+/// Regular matrices that intervals do not show to be regular. In the first, `x = (-2 + 5 s/2, (2 - 1e300 x_1)/7, s)` with
+/// `s = 5.5e-300` but for 1e-150 of it, by elimination in rationals for either sign of `x_1`; the second is off a
+/// singular one by one rounding, with `x = (-1, 1)`; in the third `x_2` is beyond the range, in units of its own.
+#[test]
+fn a_matrix_in_doubt_is_decided_exactly() {
+    let last = 1.0 + f64::EPSILON;
+    let cases = [
+        (
+            dmatrix![5.0, 0.0, 2e300; 1e300, 7.0, 0.0; -1.0, 0.0, 1e154],
+            dmatrix![0.0, 0.0; 0.0, 0.0; 0.5, 0.0],
+            dvector![1.0, 2.0, 3.0],
+            vec![1, 2],
+            vec![-2.0, 2e300 / 7.0],
+        ),
+        (
+            dmatrix![1.0, 1.0; 1.0, last],
+            DMatrix::zeros(2, 1),
+            dvector![0.0, f64::EPSILON],
+            vec![2],
+            vec![-1.0, 1.0],
+        ),
+        (dmatrix![1.0, 0.0; 1e300, 1e-300], DMatrix::zeros(2, 2), dvector![1.0, 1.0], vec![1, 1], vec![1.0]),
+    ];
+    for (a, b, right, sizes, expected) in cases {
+        let equation = BlockEquation::new(Some(a), b, right, &sizes).unwrap();
+        let report = answer(&RawProblem::BlockAbsoluteValue(Box::new(equation)));
+        assert_eq!((report.complete, report.count.as_str()), (Proof::Proven, "1"));
+        for (found, expected) in values(&report)[0].iter().zip(expected) {
+            assert!((found - expected).abs() <= 1e-15 * expected.abs(), "{found} {expected}");
+        }
+    }
+    let singular = BlockEquation::new(
+        Some(dmatrix![1e300, 2e300; 1.0, 2.0]),
+        DMatrix::zeros(2, 1),
+        dvector![1.0, 1.0],
+        &[2],
+    );
+    assert_eq!(singular, Err(ModeProblemError::NotRegular));
+}
+
 /// `x = (-5e-324, 2e-300)`, where bounds on the first component leave its sign open: so does the text.
 #[test]
 fn a_component_beyond_the_range_is_told_with_both_signs_if_its_sign_is_open() {

@@ -2717,7 +2717,7 @@ class SimulateReport(Report):
 class SizeReport(_mixins.SizeReport, Report):
     """For which values a wanted margin is met."""
 
-    _absent = {"load": None, "tipping": None}
+    _absent = {"load": None, "tipping": None, "wedged": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2742,6 +2742,9 @@ class SizeReport(_mixins.SizeReport, Report):
     """The margin in the model."""
     tipping: Tipping | None
     """Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise."""
+    wedged: float | None
+    """The margin of holding in the model while something has wedged it, if that is greater than the one by
+    itself, which is wanted; absent otherwise."""
     met: tuple[MetInterval, ...]
     """The intervals in which the wanted margin is met, in ascending order."""
     without_position: tuple[RangeWithoutPosition, ...]

@@ -20,6 +20,8 @@ const MOST_STEPS: usize = 5000;
 const FIRST_WAY: f64 = 0.1;
 /// Newton steps after which a state counts as not found; quadratic convergence needs far fewer.
 const NEWTON_STEPS: usize = 25;
+/// On ways as long as this (sizes of the mechanism, or rad) rounding is as great as the mechanism itself: nothing is there.
+const FARTHEST: f64 = 1.0 / f64::EPSILON;
 /// A residual (sizes of the mechanism, or rad) that one more Newton step brings to rounding, in a regular
 /// state.
 const CLOSED: f64 = 1e-12;
@@ -71,11 +73,15 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// Whether the number of steps is the reason, or the end of the work, or a way longer than any number; else the joint
-    /// equations are singular there within rounding.
+    /// Whether the number of steps is the reason, or the end of the work, or a way that is too long; else the joint equations
+    /// are singular there within rounding.
     pub(super) fn is_effort(&self) -> bool {
-        self.is_ended || self.steps >= MOST_STEPS || !self.end.is_finite()
+        self.is_ended || self.steps >= MOST_STEPS || !is_within_reach(self.end)
     }
+}
+
+fn is_within_reach(end: f64) -> bool {
+    end.abs() < FARTHEST
 }
 
 /// Follows a leg from a place with known positions to another one with these values of the coordinates. It halts once
@@ -86,7 +92,7 @@ pub(super) fn follow(
     (end, values): (f64, &[f64]),
     proceed: &mut dyn FnMut() -> bool,
 ) -> Result<Arrival, Halt> {
-    if !end.is_finite() {
+    if !is_within_reach(end) {
         return Err(Halt { place, end, poses, steps: 0, is_ended: false });
     }
     let mut guess = FIRST_WAY;

@@ -38,6 +38,9 @@ impl Analysis {
         let vary = &options.vary;
         let varied = vary.of(model)?;
         let range = vary.ends(&varied, || range_around(model, &varied))?;
+        if options.max_reaction.is_some() {
+            varied.check_none_stands(f64::midpoint(range[0], range[1]), "a greatest reaction")?;
+        }
         let directions = 1 + usize::from(options.both_directions);
         let (modes, along) = (work.part(0, 2), work.part(1, 2));
         let find = |varied: &Varied, part: usize| {

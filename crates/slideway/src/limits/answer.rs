@@ -10,7 +10,7 @@ use super::report::{
 use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
 use crate::fault::Faults;
-use crate::ids::JointId;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::{Coordinate, JointKind, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
@@ -122,9 +122,19 @@ impl Naming {
             to: same_ends.told(speed.to),
             ..speed.clone()
         };
-        let signs = signs(&mode.pattern);
         let closed = |k: usize| self.mechanism.is_closed(&mode.pattern, k);
         let [from, to] = [&mode.from, &mode.to].map(|end| self.reactions(&mode.pattern, end));
+        // A block that floats within its play has no side, whichever pattern tells of it.
+        let floats = |k: usize| {
+            let is_unloaded = |forces: &Vec<Limit>| forces.get(k) == Some(&Limit::Finite(0.0));
+            let changes_side =
+                |end: &ModeEnd| matches!(&end.cause, EndCause::SideChange(at) if at.contains(&k));
+            self.mechanism.excess.shares(ContactId(k))
+                && [&from, &to].into_iter().all(is_unloaded)
+                && ![&mode.from, &mode.to].into_iter().any(changes_side)
+        };
+        let sign = |(k, sign): (usize, i8)| if floats(k) { 0 } else { sign };
+        let signs: Vec<i8> = signs(&mode.pattern).into_iter().enumerate().map(sign).collect();
         let reaction = |(k, contact): (usize, &crate::mechanism::Contact)| {
             let ((from, from_grows), (to, to_grows)) = (limit(&from, k), limit(&to, k));
             EndReaction { contact: contact.name.to_string(), from, to, from_grows, to_grows }

@@ -16,8 +16,8 @@ use crate::problem::TurningHinge;
 use crate::progress::{Progress, Work};
 use crate::report::{Proof, Solution, SolveReport};
 use crate::solve::{
-    Parts, SolveOptions, Stages, block_instance, certain_counts, solve_in, states_between_faces,
-    turning_hinges, unknowns_of,
+    Parts, SolveOptions, Stages, block_instance, certain_counts, check_none_stands, solve_in,
+    states_between_faces, turning_hinges, unknowns_of,
 };
 use crate::units::Unit;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -482,6 +482,14 @@ impl Varied {
     /// Whatever `solve` refuses there.
     pub(crate) fn stands(&self, value: f64) -> Result<bool, Faults> {
         self.at_any(value, |stages| Ok(!stages.standing.is_empty()))
+    }
+
+    /// Refuses contacts that stand still there while the rest moves, for what is not known of them.
+    ///
+    /// # Errors
+    /// A fault that names them, if there are some.
+    pub(crate) fn check_none_stands(&self, value: f64, question: &'static str) -> Result<(), Faults> {
+        self.at_any(value, |stages| Ok(check_none_stands(stages, question))).unwrap_or(Ok(()))
     }
 
     /// [`Varied::at`], where contacts may stand still.

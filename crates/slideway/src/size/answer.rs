@@ -25,6 +25,8 @@ pub(super) struct Sought<'q> {
     pub(super) present: Option<Margin>,
     /// The joints that tip in the model, if there is no solution for that reason.
     pub(super) tipping: Option<Tipping>,
+    /// The margin in the model while something has wedged it.
+    pub(super) wedged: Option<f64>,
     pub(super) found: SizesFound,
 }
 
@@ -34,7 +36,7 @@ pub(super) fn report(
     options: &SizeOptions,
     sought: &Sought<'_>,
 ) -> SizeReport {
-    let Sought { question, range, steps, value, present, tipping, found } = sought;
+    let Sought { question, range, steps, value, present, tipping, wedged, found } = sought;
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
@@ -66,6 +68,7 @@ pub(super) fn report(
         both_directions: options.both_directions,
         present: sample(&Tried { at: *value, margin: *present }, told),
         tipping: tipping.clone(),
+        wedged: *wedged,
         met: found.met.iter().map(|ends| interval(ends, same_ends, told)).collect(),
         without_position: found.gaps.iter().map(|one| gap(one, same_ends)).collect(),
         samples: samples(found, (*steps, options.margin), told),

@@ -17,6 +17,8 @@ const PATTERNS: u64 = 1 << 12;
 const TRIED: u32 = 8;
 /// Gaps between modes that are narrower than this, relative to where they are, come from rounding.
 const ROUNDING: f64 = 1e-10;
+/// Margins closer than this, relative to the greater one, are the same.
+pub(super) const SAME: f64 = 1e-9;
 
 /// How far friction is from a limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -99,6 +101,14 @@ impl MarginQuestion<'_> {
                 Some(factor) => Margin::Finite(factor.recip()),
             }),
         }
+    }
+
+    /// The margin of holding at a value while something has wedged it, if that is greater than this one, by itself.
+    pub(super) fn wedged(&self, value: f64, by_itself: Margin, work: Work<'_>) -> Option<f64> {
+        let Against::Hold { load } = self.against else { return None };
+        let factor = self.threshold((load, false), value, work).ok().flatten()?;
+        let by_itself = by_itself.factor()?;
+        (factor > 0.0 && by_itself * factor < 1.0 - SAME).then(|| factor.recip())
     }
 
     /// Returns the guided sliders that tip at a value, if there is no solution for that reason.

@@ -253,17 +253,21 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
         limit: options.margin,
     };
     let value = varied.present()?;
+    if options.against == Against::Locking {
+        varied.check_none_stands(value, "a safety factor against jamming")?;
+    }
     let present = present(&question, value, work.part(0, 2))?;
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
     let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
     let tipping = question.tipping(value, work);
+    let wedged = present.and_then(|by_itself| question.wedged(value, by_itself, work));
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
     if found.places.iter().all(|place| place.margin.is_none()) {
         // Nowhere an answer: the faults in the middle say why.
         question.margin(f64::midpoint(range[0], range[1]), work)?;
     }
     let state = held_state(&Mechanism::new(model)?, &varied, range);
-    let sought = answer::Sought { question, range, steps, value, present, tipping, found };
+    let sought = answer::Sought { question, range, steps, value, present, tipping, wedged, found };
     finite(answer::report(model, state, options, &sought))
 }
 

@@ -98,6 +98,10 @@ pub struct SizeReport {
     /// Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<Tipping>,
+    /// The margin of holding in the model while something has wedged it, if that is greater than the one by itself, which is
+    /// wanted; absent otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub wedged: Option<f64>,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
     /// Ranges in which the mechanism cannot be assembled or solved, the model does not allow the values, or a

@@ -1,14 +1,12 @@
 //! The answer of `size`, in words.
 
+use super::margin::SAME;
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
 use crate::limits::no_answers;
 use crate::report::number::precise;
 use crate::report::{NO_DRIVE, Tipping, without_solution};
 use crate::units::{Unit, brief};
-
-/// Margins closer than this, relative to the greater one, are the same.
-const SAME: f64 = 1e-9;
 
 /// A report whose conclusion is sought.
 pub(super) struct Words<'r> {
@@ -153,7 +151,17 @@ impl Words<'_> {
             (_, None) => never(report),
             (_, Some(margin)) => self.factor(margin),
         };
-        format!("{model}: {told}.")
+        let wedged = match report.wedged {
+            None => String::new(),
+            Some(margin) if margin >= 1.0 - SAME => {
+                format!("; only while wedged it does, with a safety factor of {}", brief(margin))
+            }
+            Some(margin) => {
+                let growth = brief(margin.recip());
+                format!("; only while wedged it would, from {growth} times its static friction on")
+            }
+        };
+        format!("{model}: {told}{wedged}.")
     }
 
     /// The meaning of a safety factor: "its safety factor is 2.222, which is enough".

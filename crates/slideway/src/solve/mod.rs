@@ -56,10 +56,10 @@ pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_cha
 pub(crate) use mode_problem::{ProblemData, Sliding, sides, sliding_signs};
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
-pub(crate) use sharing::load_sharing;
+pub(crate) use sharing::{check_assembly, load_sharing};
 pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
-pub(crate) use standing::check_standing;
+pub(crate) use standing::{check_none_stands, check_standing};
 pub(crate) use state::{pattern, signs};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;

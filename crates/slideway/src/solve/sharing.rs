@@ -42,9 +42,8 @@ pub(crate) fn load_sharing(
 ///
 /// # Errors
 /// A fault that names the contacts that share a load.
-pub(super) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Result<(), Faults> {
-    let is_rigid = shared.compliance.iter().all(|compliance| *compliance == 0.0);
-    let Some(out) = is_rigid.then(|| shared.out_of_line()).flatten() else { return Ok(()) };
+pub(crate) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Result<(), Faults> {
+    let Some(out) = sharing::is_rigid(shared).then(|| shared.out_of_line()).flatten() else { return Ok(()) };
     let contacts = || out.iter().map(|&k| &mechanism.contacts[k]);
     let kind =
         FaultKind::OutOfLine { contacts: contacts().map(|contact| contact.name.to_string()).collect() };

@@ -20,8 +20,8 @@
 //! it begins to turn, `|M| = r |R|`.
 //!
 //! Of redundant guides a contact may also be open, and the deflections of all contacts must fit together
-//! (theory, section 10). Where the guides came to rest within their play is not known: that, too, is a range. Without
-//! stiffness nothing bounds how hard they are pressed against each other, and such guides are refused.
+//! (theory, section 10). Where the guides came to rest within their play is not known: that, too, is a range. Of rigid guides
+//! only the places of the faces have to fit together, which bounds what presses them against each other.
 //!
 //! ```
 //! use slideway::model::{Model, Settings};

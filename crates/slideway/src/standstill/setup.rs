@@ -11,8 +11,8 @@ use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
 use crate::progress::Work;
-use crate::report::Elasticity;
-use crate::sharing::{elasticity, shared_load, stress_force};
+use crate::sharing::{is_rigid, shared_load, stress_force};
+use crate::solve::check_assembly;
 use nalgebra::{DMatrix, DVector, DVectorView, RowDVector, Vector2};
 
 /// Units of the linear programs.
@@ -104,8 +104,9 @@ impl Setup {
         Ok(Self { mechanism, configuration, assembled, given, load, sliders, units, shared })
     }
 
-    /// A mechanism with these forces in the equations of motion alone, and without any other load, preload, play and
-    /// misalignment: what remains of it where the forces, or those between its guides, are great enough.
+    /// A mechanism with these forces in the equations of motion alone, and without any other load and preload: what remains of
+    /// it where the forces, or those between its guides, are great enough. Beside the deflections of guides that yield, play and
+    /// misalignment are nothing then; rigid ones keep them.
     pub(super) fn alone(&self, forces: DVector<f64>) -> Self {
         let mut alone = Self { load: None, ..self.clone() };
         let force = greatest_force(&forces, alone.units.length);
@@ -114,7 +115,7 @@ impl Setup {
         for contact in &mut alone.mechanism.contacts {
             contact.preload = [0.0; 2];
         }
-        if let Some(shared) = &mut alone.shared {
+        if let Some(shared) = alone.shared.as_mut().filter(|shared| !is_rigid(shared)) {
             shared.clearance.fill(0.0);
             shared.misalignment.fill(0.0);
         }
@@ -230,8 +231,8 @@ impl Setup {
 /// whatever is in equilibrium, as nothing keeps them pressed but loads and friction.
 ///
 /// # Errors
-/// Nothing says how; rigid faces, whose self-stresses are not bounded by anything; guides that share a load with contacts
-/// that may lift off.
+/// Nothing says how; rigid guides that are out of line by more than their play; guides that share a load with contacts that
+/// may lift off.
 fn shared(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Result<Option<SharedLoad>, Faults> {
     if mechanism.excess.is_empty() {
         return Ok(None);
@@ -242,23 +243,20 @@ fn shared(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Result<Option<Sh
         return Ok(None);
     }
     mechanism.check_one_sided_in_excess()?;
-    let elasticity = elasticity(mechanism, &self_stress)?;
     let shared = shared_load(mechanism, self_stress)?;
-    match &shared {
-        Some(shared) if elasticity == Elasticity::Rigid => {
-            let sharing = (0..mechanism.contacts.len()).filter(|&k| shared.shares(k));
-            let contacts = sharing.map(|k| mechanism.contacts[k].name.to_string()).collect();
-            let joint = mechanism.contacts[shared.cut[0]].joint;
-            let place = mechanism.joints[joint.index()].place.clone();
-            Err(Fault::new(FaultKind::RigidAtRest { contacts }, place).into())
-        }
-        _ => Ok(shared),
+    if let Some(shared) = &shared {
+        check_assembly(mechanism, shared)?;
     }
+    Ok(shared)
 }
 
 /// The greatest normal force (N) at a cut contact by which misalignments beyond the play press the guides against
-/// each other, as far as one self-stress `z` alone tells: `(|z^T e| - sum_k delta_k |z_k|)^+ / sum_k f_k z_k^2`.
+/// each other, as far as one self-stress `z` alone tells: `(|z^T e| - sum_k delta_k |z_k|)^+ / sum_k f_k z_k^2`. None of rigid
+/// ones, which cannot be put together then.
 fn misfit(shared: &SharedLoad) -> f64 {
+    if is_rigid(shared) {
+        return 0.0;
+    }
     let of = |stress: DVectorView<'_, f64>| {
         let beyond = stress.dot(&shared.misalignment).abs() - stress.abs().dot(&shared.clearance);
         beyond.max(0.0) / stress.component_mul(&stress).dot(&shared.compliance)

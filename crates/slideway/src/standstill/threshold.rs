@@ -15,7 +15,7 @@
 //!
 //! Redundant guides *wedge* where the cone without any load holds normal forces that do not vanish: friction then
 //! keeps them pressed against each other, however hard. Play and misalignment are negligible beside the deflections of
-//! such forces, so that they move no threshold.
+//! such forces, so that they move no threshold; rigid guides keep theirs.
 
 use super::directions::directions;
 use super::release::is_released;

@@ -64,6 +64,31 @@ fn efforts(report: &DriveReport) -> [(f64, EfficiencyKind, Option<f64>); 2] {
     })
 }
 
+/// The rails wedge from mu = L/B = 2/3 on, by themselves never.
+#[test]
+fn what_holds_only_while_wedged_is_told_apart() {
+    for (mu, told) in [
+        ("0.3", "it would, from 2.222 times its static friction on"),
+        ("0.7", "it does, with a safety factor of 1.05"),
+    ] {
+        let drawer = with("drawer-on-two-rails", &[("mu", mu)]);
+        let report = sized(&drawer, "mu=0.1..0.9", 1.2, to_hold("resistance"));
+        assert_eq!(report.present.margin, Some(0.0));
+        assert_close(
+            report.wedged.expect("it can be wedged"),
+            mu.parse::<f64>().unwrap_or_default() * 1.5,
+            0.0,
+            1e-10,
+        );
+        let told = format!("only while wedged {told}");
+        assert!(
+            report.text(Style::PLAIN).replace('\n', " ").contains(&told),
+            "{}",
+            report.text(Style::PLAIN)
+        );
+    }
+}
+
 // The drawer: N L = a P and P = Q + 2 mu N, so P = Q / (1 - 2 mu a / L).
 
 #[test]

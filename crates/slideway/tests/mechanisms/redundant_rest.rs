@@ -28,6 +28,45 @@ const DRAWER: &str = "drawer-on-two-rails";
 const Q: f64 = 10.0;
 const TIGHT: [(&str, &str); 2] = [("play_left", "0 m"), ("play_right", "0 m")];
 
+const RIGID_RAILS: &str = r#"
+[parameters]
+play = "0.1 mm"
+mu = 0.01
+[points]
+P = [0, "60 mm"]
+Q = [0, 0]
+[bodies.c]
+points = ["P", "Q"]
+mass = 3
+centre_of_mass = [0, 0]
+moment_of_inertia = 0.01
+[joints.l]
+type = "block_slider"
+block = "c"
+at = [0, "100 mm"]
+along = 0
+length = "80 mm"
+mu = "mu"
+play = "0.1 mm"
+[joints.r]
+type = "block_slider"
+block = "c"
+at = [0, "-100 mm"]
+along = 0
+length = "80 mm"
+mu = "mu"
+play = "play"
+[coordinates.x]
+slide = "l"
+[loads.Q]
+type = "force"
+at = "c.Q"
+components = ["-20 N", 0]
+[drives.belt]
+coordinate = "x"
+force = { at = "c.P", direction = 0 }
+"#;
+
 fn resting(model: &Model, options: &HoldOptions) -> HoldReport {
     hold(model, options).unwrap_or_else(|faults| panic!("{faults}"))
 }
@@ -136,15 +175,41 @@ fn the_gate_stays_up_from_its_closed_form_on() {
     assert_close(stays.from, (height - 1.0) / 2.0, 0.0, 1e-7);
 }
 
-/// Self-stress of rigid faces is bounded by nothing.
+/// Two rigid rails at +-B/2 with runners at +-L/2, no transverse load: only tilted does the carriage touch, on both rails if
+/// their plays are equal, else on that with less. With the pull P at y = a, the resistance Q in the middle, friction F_l + F_r =
+/// Q - P and the forces N_l + N_r = N of the ends, N L = a P + (F_l - F_r) B/2, |F| <= mu 2 N on each rail, so that for equal
+/// plays the rail that helps tilting takes all: Q - P = mu 2/L (a P + (Q - P) B/2) below and P - Q = mu 2/L (a P + (P - Q) B/2)
+/// above; with the left rail alone the latter is P - Q = mu 2/L (a P - (P - Q) B/2). Wedged, equal rails hold each other
+/// from mu = L/B on, unequal ones never.
+#[rstest]
+#[case("0.1 mm", [19.5 / 0.99, 19.5 / 0.96], Some(0.4))]
+#[case("0.4 mm", [19.5 / 0.99, 20.5 / 1.01], None)]
+fn rigid_rails_hold_what_their_places_allow(
+    #[case] play: &str,
+    #[case] pulls: [f64; 2],
+    #[case] wedged_from: Option<f64>,
+) {
+    let model = Model::parse(RIGID_RAILS).unwrap().with(&parameters(&[("play", play)])).unwrap();
+    let report = resting(&model, &HoldOptions::default().load("belt"));
+    let [Range { least: Some(from), greatest: Some(to) }] = report.load.as_ref().unwrap().held[..] else {
+        panic!("{:?}", report.load)
+    };
+    assert_close(from, pulls[0], 0.0, 1e-9);
+    assert_close(to, pulls[1], 0.0, 1e-9);
+    assert!(!wedging(&report).possible);
+    let threshold = &wedging(&report).threshold;
+    assert_eq!(threshold.value.is_some(), wedged_from.is_some());
+    if let Some(from) = wedged_from {
+        assert_close(threshold.coefficients[0].mu_static[0], from, 0.0, 1e-11);
+    }
+}
+
+/// Rails that are out of line by more than their play cannot be put together, at rest neither.
 #[test]
-fn rigid_faces_are_refused() {
-    let faults = hold(&Model::parse(&without("stiffness = ")).unwrap(), &HoldOptions::default()).unwrap_err();
-    let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
-    let [FaultKind::RigidAtRest { contacts }] = kinds.as_slice() else { panic!("{faults}") };
-    assert_eq!(contacts.len(), 4);
-    assert!(kinds[0].hint().unwrap().contains("give their `stiffness`"));
-    assert!(faults.to_string().contains("pressed against each other"), "{faults}");
+fn rigid_rails_out_of_line_are_refused() {
+    let bent = RIGID_RAILS.replace("play = \"play\"", "play = \"play\"\nfront = { misalignment = \"1 mm\" }");
+    let faults = hold(&Model::parse(&bent).unwrap(), &HoldOptions::default()).unwrap_err();
+    assert!(matches!(faults.sorted()[0].kind, FaultKind::OutOfLine { .. }), "{faults}");
 }
 
 /// Without stiffness, play and misalignment only ratios of stiffnesses count.

@@ -218,6 +218,24 @@ fn a_slot_without_friction_leaves_nothing_open() {
     assert_eq!(solve(&smooth).unwrap().status, Status::One);
 }
 
+/// What is not computed beside what stands is refused with the way to an answer.
+#[test]
+fn a_greatest_reaction_and_a_margin_name_what_stands() {
+    let lift = model(SCOTT_RUSSELL);
+    let vary = || "mu=0.1..0.3".parse::<Vary>().unwrap();
+    let mut options = LimitsOptions::new(vary());
+    options.max_reaction = Some(500.0);
+    let faults =
+        [limits(&lift, &options).unwrap_err(), size(&lift, &SizeOptions::new(vary(), 1.5)).unwrap_err()];
+    for faults in faults {
+        let [fault] = &faults.sorted()[..] else { panic!("{faults}") };
+        let FaultKind::BesideStanding { contacts, .. } = &fault.kind else { panic!("{faults}") };
+        assert_eq!(contacts, &["top"]);
+        let hint = fault.kind.hint().unwrap();
+        assert!(hint.contains("limits --vary friction") && hint.contains("--max-normal-force"), "{hint}");
+    }
+}
+
 /// Without its drive the load may begin to fall, and a drive that accelerates it moves it.
 #[test]
 fn what_may_begin_to_slide_does_not_stand() {

@@ -32,7 +32,7 @@ use super::mode_problem::none_stands;
 use super::resting::may_lift_off;
 use super::stages::Stages;
 use super::state::{Held, State, pattern, signs};
-use crate::fault::{Faults, MOST_CONTACTS, MOST_STANDING};
+use crate::fault::{Fault, FaultKind, Faults, MOST_CONTACTS, MOST_STANDING};
 use crate::ids::ContactId;
 use crate::influence::HingeState;
 use crate::kinetics::KineticEquations;
@@ -74,6 +74,20 @@ pub(crate) fn check_standing(mechanism: &Mechanism, standing: &[ContactId]) -> R
         && mechanism.excess.is_empty()
         && mechanism.rough_hinges().next().is_none();
     if is_within { Ok(()) } else { none_stands(mechanism, standing) }
+}
+
+/// Refuses contacts that stand still while the rest moves, for what is not known of them.
+///
+/// # Errors
+/// A fault that names them, if there are some.
+pub(crate) fn check_none_stands(stages: &Stages, question: &'static str) -> Result<(), Faults> {
+    let mechanism = &stages.mechanism;
+    let Some(first) = stages.standing.first() else { return Ok(()) };
+    let name = |contact: &ContactId| mechanism.contacts[contact.index()].name.to_string();
+    let contacts = stages.standing.iter().map(name).collect();
+    let joint = mechanism.contacts[first.index()].joint;
+    let place = mechanism.joints[joint.index()].place.clone();
+    Err(Fault::new(FaultKind::BesideStanding { question, contacts }, place).into())
 }
 
 fn free_forces(mechanism: &Mechanism, standing: &[ContactId]) -> Vec<Free> {

@@ -11,6 +11,7 @@ use crate::kinetics::Reaction;
 use crate::mechanism::{Effort, FrictionCircle};
 use crate::modes::SharedLoad;
 use crate::pattern::{Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING};
+use crate::sharing::is_rigid;
 use nalgebra::{DMatrix, DVector};
 
 /// What every joint and contact does.
@@ -195,7 +196,9 @@ impl<'s> State<'s> {
                 sum.plus(stress[k], &self.deflection(shared, k).shifted(shared.misalignment[k]))
             });
             let row = self.dense(&sum);
-            let scale = row.amax();
+            // Of rigid faces that are all pressed there is nothing but their places.
+            let places = shared.clearance.abs() + shared.misalignment.abs();
+            let scale = if is_rigid(shared) { stress.abs().dot(&places) } else { row.amax() };
             if scale > 0.0 { (row / scale, -sum.constant / scale) } else { (row, -sum.constant) }
         });
         equation.collect()
