@@ -54,8 +54,9 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             Paint { fill, hatching }
         }
         ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. } => {
-            let is_set =
-                |other: &&MapClass| matches!(other.meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. });
+            let is_set = |other: &&MapClass| {
+                matches!(other.meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. })
+            };
             let sets = classes.iter().filter(is_set);
             let place = sets.take_while(|other| *other != class).count();
             // After a round of colours they are hatched.

@@ -173,7 +173,8 @@ impl Curvature {
         bounds: &mut DVector<f64>,
     ) {
         for turn in &self.turns {
-            bounds[turn.row] += factor * turn.length * turn.angle.greatest(one).powi(2) * turn.angle.greatest(other);
+            bounds[turn.row] +=
+                factor * turn.length * turn.angle.greatest(one).powi(2) * turn.angle.greatest(other);
         }
         for swing in &self.swings {
             let [u, v] = [one, other].map(|vector| swing.moved(vector).norm());

@@ -129,7 +129,8 @@ impl<'m, T: Real> Rows<'m, T> {
         let radii = [slider.rim(), if round.inside { -round.radius } else { round.radius }];
         let parts = radii.map(|radius| radius / (radii[0] + radii[1]));
         let ends = round_ends(slider, round);
-        let psi = ends.iter().zip(parts).fold(T::zero(), |psi, (end, part)| psi + part * self.angle(end.frame));
+        let psi =
+            ends.iter().zip(parts).fold(T::zero(), |psi, (end, part)| psi + part * self.angle(end.frame));
         let drawn = ends[0].position - ends[1].position;
         let axis = rot90(Pose::new(Vector2::zeros(), psi).turned(drawn / length(drawn)));
         let places = ends.each_ref().map(|end| moved(self.mechanism, self.poses, end));

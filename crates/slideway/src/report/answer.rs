@@ -1,7 +1,9 @@
 //! The plain answer of `solve`, as one would say it to a colleague.
 
 use super::effort::{self, least_friction, times, times_friction};
-use super::{Contact, Drive, JamImpulse, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status};
+use super::{
+    Contact, Drive, JamImpulse, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status,
+};
 use crate::units::brief;
 
 /// The remedy where a search ended early.
@@ -89,7 +91,11 @@ impl SolveReport {
             [only] => format!("Velocities jump without a collision. Afterwards {}.", after(only)),
             several => {
                 let ways: Vec<String> = several.iter().map(after).collect();
-                format!("Velocities jump without a collision, in one of {} ways. Afterwards {}.", ways.len(), ways.join(". Or "))
+                format!(
+                    "Velocities jump without a collision, in one of {} ways. Afterwards {}.",
+                    ways.len(),
+                    ways.join(". Or ")
+                )
             }
         })
     }

@@ -493,7 +493,11 @@ fn a_disc_rolls_or_slips_down_an_incline(#[case] k: f64) {
         let found = release.coordinates[0].acceleration;
         let middle = f64::midpoint(found.least.unwrap(), found.greatest.unwrap());
         assert!((middle - along).abs() < 1e-7, "{found:?}");
-        let moves = if rolls { "It does not hold: it starts to move" } else { "It does not hold: it starts to slide" };
+        let moves = if rolls {
+            "It does not hold: it starts to move"
+        } else {
+            "It does not hold: it starts to slide"
+        };
         assert!(held.answer().starts_with(moves), "{}", held.answer());
     }
 }

@@ -5,8 +5,8 @@ use crate::answers::{assert_close, contact, only, report_on};
 use rstest::rstest;
 use slideway::configuration::Configuration;
 use slideway::fault::FaultKind;
-use slideway::map::ColourBy;
 use slideway::limits::{LimitsOptions, Vary, limits};
+use slideway::map::ColourBy;
 use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{Report, Status};
@@ -124,7 +124,11 @@ fn limits_find_where_a_disc_begins_to_slip() {
     assert_close(slips.to, 10_f64.to_radians().tan() / 3.0, 1.0, 1e-8);
     assert_eq!((slips.solutions, rolls.solutions), (1, 1));
     assert_eq!(rolls.starts.as_deref(), Some(&["foot: closed, does not slip".to_owned()][..]));
-    assert!(found.answer().contains("it starts in one way: foot: closed, does not slip"), "{}", found.answer());
+    assert!(
+        found.answer().contains("it starts in one way: foot: closed, does not slip"),
+        "{}",
+        found.answer()
+    );
 }
 
 /// Sweeps have the states of `solve` at every value, and maps tell where a disc rolls from where it is pushed into a slip.
@@ -151,22 +155,39 @@ fn sweeps_and_maps_know_what_is_at_rest() {
         seen += 1;
     }
     assert_eq!(seen, 21);
-    let options = MapOptions::new(Vary::between("mu", 0.0, 0.2), Vary::between("pull", -2.0, 2.0)).size(20, 20);
+    let options =
+        MapOptions::new(Vary::between("mu", 0.0, 0.2), Vary::between("pull", -2.0, 2.0)).size(20, 20);
     let found = map(&model, &options.probe(1).colour_by(ColourBy::Modes)).unwrap();
     // It rolls, or slips: upwards if it is pulled up by more than friction holds, else downwards.
     assert_eq!(found.classes.len(), 3, "{:?}", found.classes);
-    assert!(found.classes.iter().any(|class| class.words == "foot: closed, does not slip"), "{:?}", found.classes);
+    assert!(
+        found.classes.iter().any(|class| class.words == "foot: closed, does not slip"),
+        "{:?}",
+        found.classes
+    );
 }
 
-/// A drive that holds a box on an incline needs anything from `m g (sin - mu cos)` to `m g (sin + mu cos)`; beyond it sets the box in motion.
+/// A drive that pushes a box along its incline at half its height: it tips from `|F - m g sin| = m g cos b/h` on, before it slides.
 #[test]
-fn a_drive_at_rest_has_the_range_that_friction_leaves() {
+fn a_drive_at_rest_tells_which_efforts_hold() {
     let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
     let text = text.replace("rate = \"-1 m/s\"", "");
-    let drive_table = "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
-    let model = Model::parse(&(text + drive_table)).unwrap();
-    let report = drive(&model, &DriveOptions::default()).unwrap();
-    panic!("{report:#?}");
+    let push = "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
+    let report = drive(&Model::parse(&(text + push)).unwrap(), &DriveOptions::default()).unwrap();
+    let (sin, cos) = 20_f64.to_radians().sin_cos();
+    let [held] = report.held.as_slice() else { panic!("{:?}", report.held) };
+    let [range] = held.held.as_slice() else { panic!("{:?}", held.held) };
+    assert_close(range.least.unwrap(), GRAVITY * (sin - cos * 0.5), 1.0, 1e-9);
+    assert_close(range.greatest.unwrap(), GRAVITY * (sin + cos * 0.5), 1.0, 1e-9);
+    assert!(
+        report.answer().starts_with("At rest: It holds. It holds with `push` from -1.254 to 7.964 N."),
+        "{}",
+        report.answer()
+    );
+    assert_eq!(report.directions.len(), 1);
+    // No contact pulls.
+    let forces = &report.directions[0].range.as_ref().unwrap().undetermined.normal_forces;
+    assert!(forces.iter().all(|force| force.from.unwrap() > -1e-9), "{forces:?}");
 }
 
 #[test]

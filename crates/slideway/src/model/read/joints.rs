@@ -166,7 +166,13 @@ impl Reader<'_> {
     }
 
     /// Whether a joint does not slip, which only what touches can.
-    pub(super) fn sticks(&mut self, written: Option<bool>, touches: Touches, name: &str, span: &Span) -> bool {
+    pub(super) fn sticks(
+        &mut self,
+        written: Option<bool>,
+        touches: Touches,
+        name: &str,
+        span: &Span,
+    ) -> bool {
         let sticks = written == Some(true);
         if sticks && touches == Touches::Nothing {
             let kind =

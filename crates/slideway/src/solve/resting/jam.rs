@@ -90,7 +90,8 @@ impl Jam<'_> {
         if !self.others.iter().all(goes_on) {
             return None;
         }
-        let force = |k: usize, force: f64| if resting.is_open(&system.pattern, k) { 0.0 } else { force + 0.0 };
+        let force =
+            |k: usize, force: f64| if resting.is_open(&system.pattern, k) { 0.0 } else { force + 0.0 };
         let contact = |(k, contact): (usize, &crate::mechanism::Contact)| ContactImpulse {
             name: contact.name.to_string(),
             normal_impulse: force(k, point.normal_force[k]),

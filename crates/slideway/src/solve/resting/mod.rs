@@ -33,9 +33,11 @@ use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{Contact, JointKind, Mechanism};
 use crate::modes::{Certificate, ContactState};
 use crate::pattern::{Affine, AffineSet};
-use crate::report::{Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, Verdict};
-use nalgebra::DVector;
+use crate::report::{
+    Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, Verdict,
+};
 pub(super) use jam::impulses as jam_impulses;
+use nalgebra::DVector;
 use patterns::System;
 
 /// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
@@ -132,6 +134,8 @@ struct Point {
     held: Vec<Held>,
     signs: Vec<i8>,
     oriented: f64,
+    /// The least slack of its inequalities, in the units in which they count.
+    least: f64,
 }
 
 /// Steps of refinement of the forces of a pattern.
@@ -205,13 +209,14 @@ impl<'a> Resting<'a> {
             if set.dimension() == 0 {
                 let unknowns = self.refined(&system, set.particular() * self.force);
                 if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
-                    solutions.extend(self.solution(&point, &mut tipped));
+                    let solution = self.solution(&point, &mut tipped);
+                    solutions.extend(solution.map(|solution| (solution, point.least)));
                 }
             } else {
                 continua.extend(self.continuum(&system, &set));
             }
         }
-        let solutions = distinct(solutions, &[]);
+        let solutions = distinct(self.without_bounds(solutions), &[]);
         Ok(SolveReport {
             status: status(false, solutions.len(), 0, continua.len()),
             complete: Proof::NotProven,
@@ -226,6 +231,28 @@ impl<'a> Resting<'a> {
             rejected: tipped.rejected,
             ..self.answer.report_without_solutions(open)
         })
+    }
+
+    /// Solutions with their least slacks, without those that miss an inequality by rounding where another solution, which has the same
+    /// forces to ten times that, does not: about the end of one state both hold within the tolerance.
+    fn without_bounds(&self, solutions: Vec<(Solution, f64)>) -> Vec<Solution> {
+        let forces = |solution: &Solution| -> Vec<f64> {
+            solution
+                .contacts
+                .iter()
+                .flat_map(|contact| [contact.normal_force, contact.friction_force])
+                .collect()
+        };
+        let is_same = |one: &Solution, other: &Solution| {
+            let (one, other) = (forces(one), forces(other));
+            let scale = one.iter().chain(&other).map(|force| force.abs()).fold(self.force, f64::max);
+            one.iter().zip(&other).all(|(one, other)| (one - other).abs() <= 10.0 * TOLERANCE * scale)
+        };
+        let is_kept = |(solution, least): &&(Solution, f64)| {
+            let beside = |(other, slack): &(Solution, f64)| *slack >= 0.0 && is_same(solution, other);
+            *least >= 0.0 || !solutions.iter().any(beside)
+        };
+        solutions.iter().filter(is_kept).map(|(solution, _)| solution.clone()).collect()
     }
 
     fn name(&self, joint: &RestingJoint) -> &str {
@@ -245,8 +272,8 @@ impl<'a> Resting<'a> {
     ) -> Option<Point> {
         let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
         let begins = beginning.iter().all(|slack| slack.constant > rounding);
-        let holds = slacks.iter().all(|slack| slack.constant >= -rounding);
-        (begins && holds).then(|| self.at(system, unknowns))
+        let least = slacks.iter().map(|slack| slack.constant).fold(f64::INFINITY, f64::min);
+        (begins && least >= -rounding).then(|| Point { least, ..self.at(system, unknowns) })
     }
 
     /// What contacts do with these unknowns. Forces that are rounding are none.
@@ -284,6 +311,7 @@ impl<'a> Resting<'a> {
             signs: signs(states).into_iter().enumerate().map(sign).collect(),
             held,
             oriented: self.oriented(system).unwrap_or(0.0),
+            least: 0.0,
             pattern: system.pattern.clone(),
         }
     }
@@ -305,10 +333,8 @@ impl<'a> Resting<'a> {
         let is_closed = |k: &usize| !open.contains(k);
         let rubs = |k: usize| signs[k] != 0.0 && mechanism.contacts[k].may_hold();
         let sticks = point.pattern.starts.contains(&Some(Start::Sticks));
-        let told = |verdict| Attainability {
-            reason: None,
-            ..Attainability::without_eigenvalues(verdict, "")
-        };
+        let told =
+            |verdict| Attainability { reason: None, ..Attainability::without_eigenvalues(verdict, "") };
         if point.signs.contains(&0) {
             not_computed("a contact is about to open or to touch")
         } else if point.oriented < 0.0 {
@@ -320,7 +346,10 @@ impl<'a> Resting<'a> {
         } else {
             let data = ProblemData { mechanism, influence, velocity_signs: &signs };
             let closed = Closed::new(data, (configuration, self.answer.equations), &open);
-            closed.map_or_else(|_| not_computed("drives cannot act on what is left"), |closed| told(closed.verdict_on(states)))
+            closed.map_or_else(
+                |_| not_computed("drives cannot act on what is left"),
+                |closed| told(closed.verdict_on(states)),
+            )
         }
     }
 
@@ -367,7 +396,11 @@ impl<'a> Resting<'a> {
         let unknowns = |free: &DVector<f64>| set.at(free) * self.force;
         let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
         let all = |free: &DVector<f64>| self.answer.unknowns(&point(free).state());
-        let list = |point: &Point| point.normal_force.iter().map(|force| force + 0.0).collect::<Vec<f64>>();
+        let list = |point: &Point| {
+            let mut forces: Vec<f64> = point.normal_force.iter().map(|force| force + 0.0).collect();
+            self.answer.mechanism.put_out_of_open(&point.pattern.states, &mut forces, 0.0);
+            forces
+        };
         let along = |growth: &DVector<f64>| point(&(first + growth));
         let growth = |growth: &DVector<f64>| self.answer.growth(&all(first), &all(&(first + growth)), 1.0);
         let difference = |growth: &DVector<f64>| {
