@@ -233,8 +233,8 @@ impl<'a> Resting<'a> {
         })
     }
 
-    /// Solutions with their least slacks, without those that miss an inequality by rounding where another solution, which has the same
-    /// forces to ten times that, does not: about the end of one state both hold within the tolerance.
+    /// Solutions with their least slacks, without those that miss an inequality by rounding where another one, which has the
+    /// same forces to ten times that, does not: about the end of one state both hold within the tolerance.
     fn without_bounds(&self, solutions: Vec<(Solution, f64)>) -> Vec<Solution> {
         let forces = |solution: &Solution| -> Vec<f64> {
             solution
@@ -323,9 +323,9 @@ impl<'a> Resting<'a> {
         Some(kept)
     }
 
-    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick: not
-    /// where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and without
-    /// any that stick the state is that of contacts that slide.
+    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick:
+    /// not where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and
+    /// without any that stick the state is that of contacts that slide.
     fn attainability(&self, point: &Point) -> Attainability {
         let Answer { mechanism, configuration, influence, .. } = *self.answer;
         let (signs, states) = (self.signs(&point.pattern), &point.pattern.states);
