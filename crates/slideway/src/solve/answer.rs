@@ -92,7 +92,7 @@ impl<'a> Answer<'a> {
         let mut keep = |state: &State<'_>| self.keep(state, &mut states, &mut tipping);
         for solution in lists.solutions.iter() {
             let pattern = pressed(&solution.pattern);
-            let normal_force = Resting::sliding(self).refined_forces(&pattern, &solution.normal_force);
+            let normal_force = Resting::refined_forces(self, &pattern, &solution.normal_force);
             keep(&State { normal_force: &normal_force, ..regular(solution, &pattern) });
         }
         let singular: Vec<SingularMode> =

@@ -148,23 +148,18 @@ impl<'a> Resting<'a> {
         Self { answer, joints, smooth, force }
     }
 
-    /// A mechanism of which no joint is at rest.
-    pub(super) fn sliding(answer: &'a Answer<'a>) -> Self {
-        Self::new(answer, Vec::new(), greatest_force(answer.influence))
-    }
-
     /// The normal forces of a state of a mechanism of which no joint is at rest, refined where contacts lift off.
     pub(super) fn refined_forces(
-        &self,
+        answer: &'a Answer<'a>,
         states: &[ContactState],
         normal_force: &DVector<f64>,
     ) -> DVector<f64> {
-        if !self.answer.can_be_refined(states) {
+        if !answer.can_be_refined(states) {
             return normal_force.clone();
         }
         let pattern = Pattern { states: states.to_vec(), starts: Vec::new() };
-        let system = self.system(pattern, self.answer.mechanism);
-        let forces = self.refined(&system, normal_force.abs());
+        let sliding = Self::new(answer, Vec::new(), greatest_force(answer.influence));
+        let forces = sliding.refined(&sliding.system(pattern, answer.mechanism), normal_force.abs());
         DVector::from_fn(forces.len(), |k, _| states[k].sign() * forces[k])
     }
 
