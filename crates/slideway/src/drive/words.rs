@@ -131,7 +131,8 @@ fn as_block(direction: &DriveDirection) -> &'static str {
 
 /// "push needs 36.36 N (20 N without friction): efficiency 55 %"
 fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
-    let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;
+    let may_be_idle = report.drives.len() == 1 && report.held.is_empty();
+    let is_idle = only.efficiency.is == EfficiencyKind::NoPower && may_be_idle;
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
         let with = unit.brief(*with);

@@ -8,7 +8,7 @@ use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::ColourBy;
 use slideway::mechanism::Mechanism;
-use slideway::model::Model;
+use slideway::model::{Model, Settings};
 use slideway::report::{Report, Status};
 use slideway::sweep::{Rows, Sweep, SweepOptions};
 use slideway::{DriveOptions, HoldOptions, MapOptions, drive, hold, map};
@@ -129,6 +129,35 @@ fn limits_find_where_a_disc_begins_to_slip() {
         "{}",
         found.answer()
     );
+}
+
+/// A box that is let go on a plane steeper than `b/h`: it slides flat up to `mu = b/h`, slides and tips up to
+/// `mu_2 = (sin - k h/2)/(cos + k b/2)` with `k = 3 (h sin - b cos)/(2 (b^2 + h^2))`, and tips about its edge beyond; of the reference.
+#[rstest]
+#[case(0.1, 0.4, 40.0, 0.383_406_168_2)]
+#[case(0.05, 0.4, 30.0, 0.233_554_816_5)]
+#[case(0.3, 0.4, 60.0, 0.931_385_856_3)]
+fn limits_find_where_a_box_begins_to_tip(
+    #[case] b: f64,
+    #[case] h: f64,
+    #[case] degrees: f64,
+    #[case] second: f64,
+) {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let k = 1.5 * (h * sin - b * cos) / (b * b + h * h);
+    assert_close((sin - k * h / 2.0) / (cos + k * b / 2.0), second, 1.0, 1e-9);
+    let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
+    let model = Model::parse(&text.replace("rate = \"-1 m/s\"", "")).unwrap();
+    let list =
+        [("b", b), ("h", h), ("slope", degrees.to_radians())].map(|(name, value)| (name, value.to_string()));
+    let settings =
+        list.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value.as_str()));
+    let found =
+        limits(&model.with(&settings).unwrap(), &LimitsOptions::new(Vary::between("mu", 0.0, 1.2))).unwrap();
+    let [flat, both, tips] = found.counts.as_slice() else { panic!("{:?}", found.counts) };
+    assert_close(flat.to, b / h, 1.0, 1e-8);
+    assert_close(both.to, second, 1.0, 1e-8);
+    assert!(tips.starts.as_ref().unwrap()[0].ends_with("it tips, sticks"), "{:?}", tips.starts);
 }
 
 /// Sweeps have the states of `solve` at every value, and maps tell where a disc rolls from where it is pushed into a slip.
