@@ -209,7 +209,9 @@ fn a_drive_at_rest_tells_which_efforts_hold() {
     assert_close(range.least.unwrap(), GRAVITY * (sin - cos * 0.5), 1.0, 1e-9);
     assert_close(range.greatest.unwrap(), GRAVITY * (sin + cos * 0.5), 1.0, 1e-9);
     assert!(
-        report.answer().starts_with("At rest: It holds. It holds with `push` from -1.254 to 7.964 N."),
+        report
+            .answer()
+            .starts_with("At rest: Without `push` it holds. It holds with `push` from -1.254 to 7.964 N."),
         "{}",
         report.answer()
     );

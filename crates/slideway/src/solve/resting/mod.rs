@@ -211,7 +211,7 @@ impl<'a> Resting<'a> {
                 continua.extend(self.continuum(&system, &set));
             }
         }
-        let solutions = distinct(self.without_bounds(solutions), &[]);
+        let solutions = distinct(self.without_bounds(&solutions), &[]);
         Ok(SolveReport {
             status: status(false, solutions.len(), 0, continua.len()),
             complete: Proof::NotProven,
@@ -230,7 +230,7 @@ impl<'a> Resting<'a> {
 
     /// Solutions with their least slacks, without those that miss an inequality by rounding where another one, which has the
     /// same forces to ten times that, does not: about the end of one state both hold within the tolerance.
-    fn without_bounds(&self, solutions: Vec<(Solution, f64)>) -> Vec<Solution> {
+    fn without_bounds(&self, solutions: &[(Solution, f64)]) -> Vec<Solution> {
         let forces = |solution: &Solution| -> Vec<f64> {
             solution
                 .contacts
