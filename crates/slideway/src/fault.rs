@@ -717,7 +717,7 @@ impl FaultKind {
                 face.option("max-normal-force")
             ),
             Self::OneSided { .. } => format!(
-                "`{}`, `hold`, and while they slide `sweep`, `map`, `limits`, `size` and `drive` know them; where they are sure to stay closed, a `pin_in_slot` or a `block_slider` may stand for them",
+                "`{}`, `hold`, `sweep`, `map`, `limits`, `size` and `drive` know them; where they are sure to stay closed, a `pin_in_slot` or a `block_slider` may stand for them",
                 face.question("solve")
             ),
             Self::ContradictoryPhase { .. } => {

@@ -39,6 +39,7 @@ __all__ = [
     "Column",
     "Contact",
     "ContactFit",
+    "ContactImpulse",
     "ContactRange",
     "ContactSummary",
     "Continuum",
@@ -96,6 +97,7 @@ __all__ = [
     "GapRange",
     "GapShare",
     "Hatching",
+    "HeldEffort",
     "HeldFriction",
     "Hinge",
     "HingeFriction",
@@ -104,6 +106,7 @@ __all__ = [
     "HoldVerdict",
     "InertiaSummary",
     "InfluenceSummary",
+    "JamImpulse",
     "JointForm",
     "JointMode",
     "JointRelease",
@@ -974,6 +977,18 @@ class ContactFit(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class ContactImpulse(Record):
+    """The impulse of a contact."""
+
+    name: str
+    """The contact."""
+    normal_impulse: float
+    """Impulse of its normal force (N s)."""
+    friction_impulse: float
+    """Impulse of its friction, positive against the direction of positive sliding on the block (N s)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class ContactRange(Record):
     """Reactions of a contact."""
 
@@ -1154,6 +1169,8 @@ class CountLimits(Record):
     of the interval lies between them but what is next to ends of modes: `CountLimits::left_out`."""
     spacing: float | None
     """Where they were sampled: the greatest distance between neighbouring values; else null."""
+    starts: tuple[str, ...] | None = None
+    """How each state starts, in words, where contacts that may lift off are at rest; absent elsewhere."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1477,7 +1494,7 @@ class DriveRange(Record):
 class DriveReport(_mixins.DriveReport, Report):
     """The efforts of all drives."""
 
-    _absent = {"course": None}
+    _absent = {"held": (), "course": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1489,6 +1506,9 @@ class DriveReport(_mixins.DriveReport, Report):
     """The drives; all lists of efforts have their order."""
     directions: tuple[DriveDirection, ...]
     """Motion as in the model, and with all rates reversed."""
+    held: tuple[HeldEffort, ...]
+    """At rest on contacts that may lift off: the efforts of each drive, the others absent, with which it stays
+    at rest; any other sets it in motion. Absent elsewhere."""
     course: Course | None
     """The efforts over what is varied, if anything is."""
     conclusion: tuple[str, ...]
@@ -1735,6 +1755,18 @@ class GapShare(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class HeldEffort(Record):
+    """The efforts of a drive with which a mechanism stays at rest."""
+
+    drive: str
+    """The drive."""
+    held: tuple[Range, ...]
+    """The ranges of its effort (N or N m), disjoint and in ascending order."""
+    words: str
+    """The same in words: "It holds with `push` from -1.254 to 7.963 N." """
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class HeldFriction(Record):
     """The friction of a contact or hinge that stands still while the rest moves, over a range."""
 
@@ -1861,6 +1893,20 @@ class InfluenceSummary(Record):
     """eta_jk for friction at the faces of positive normal force; row j is the contact that answers."""
     eta_negative: tuple[NDArray[np.float64], ...]
     """As above, at the faces of negative normal force."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class JamImpulse(Record):
+    """An impulse at a jam: velocities jump without a collision, until what wedges has stopped."""
+
+    joints: tuple[JointMode, ...]
+    """What each sliding joint does afterwards."""
+    contacts: tuple[ContactImpulse, ...]
+    """The impulses of all contacts."""
+    coordinates: tuple[CoordinateState, ...]
+    """The chosen coordinates, with their rates afterwards."""
+    energy_lost: float
+    """The kinetic energy that it takes (J)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2810,7 +2856,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"at_rest": (), "every_load_has_one_state": None, "steps_from_drawing": None, "patterns": None, "undetermined": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
+    _absent = {"at_rest": (), "every_load_has_one_state": None, "steps_from_drawing": None, "patterns": None, "undetermined": None, "jam_impulses": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2869,6 +2915,10 @@ class SolveReport(_mixins.SolveReport, Report):
     """Where there is no solution: the modes with the smallest determinants. Only where every pattern was tried."""
     jammed_groups: tuple[tuple[str, ...], ...]
     """Where there is no solution: groups of contacts that admit none, whatever the others do."""
+    jam_impulses: tuple[JamImpulse, ...] | None
+    """Where there is no solution while contacts that may lift off slide: the impulses without collision that can
+    act instead, of which none may be possible where drives prescribe the motion. Absent elsewhere, and where
+    margins are not asked for."""
     margins: Margins | None
     """By which factors all friction may grow; absent if that was not computed."""
     margins_missing: MarginsMissing | None

@@ -476,6 +476,7 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
                     SliderKind::Guided => (JointForm::GuidedSlider, 2),
                     SliderKind::Pin => (JointForm::PinInSlot, 1),
                 };
+                let constraints = constraints + usize::from(slider.sticks);
                 (kind, [slider.block, slider.guide], constraints, Some(slider))
             }
         };

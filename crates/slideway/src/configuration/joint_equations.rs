@@ -1,9 +1,9 @@
 //! The joint equations: their residuals at given poses, and their Jacobian.
 //!
 //! A hinge gives two equations (its two points coincide), a block or guided slider two (the middle of the
-//! block stays on the guide's centre line; no relative rotation), a pin in a slot or a disc on a disc one, and what sticks one more,
-//! behind all others. Rows of length are divided by the size of the mechanism, and displacements are counted in it, so that all numbers are of
-//! order one.
+//! block stays on the guide's centre line; no relative rotation), a pin in a slot or a disc on a disc one, and what sticks one
+//! more, behind all others. Rows of length are divided by the size of the mechanism, and displacements are counted in it, so
+//! that all numbers are of order one.
 
 use super::curvature::{Angle, Curvature, End};
 use super::{Pose, middle_points, moved, round_ends, turned};

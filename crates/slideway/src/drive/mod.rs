@@ -45,16 +45,17 @@ mod words;
 pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
-    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, LockedRange, PeakEffort, SCHEMA,
-    Sense,
+    DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, HeldEffort, LockedRange,
+    PeakEffort, SCHEMA, Sense,
 };
 
 use crate::fault::Faults;
 use crate::limits::{VariedQuantity, Vary, range_around};
 use crate::model::{Effort, Model};
 use crate::progress::{Callback, Work, undisturbed, watched};
-use crate::report::finite;
+use crate::report::{Report, finite};
 use crate::solve::Stages;
+use crate::standstill::{HoldOptions, hold_within};
 
 /// The most rows of a table that are computed.
 pub const GREATEST_ROWS: usize = 10_001;
@@ -125,20 +126,43 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
     });
     let (state, forwards) = state::direction(model, Sense::Model, work.part(0, 4))?;
-    let (_, opposite) = state::direction(&reversed, Sense::Reversed, work.part(1, 4))?;
+    let mut directions = vec![forwards];
+    let held = held(model, work.part(1, 4))?;
+    // At rest both directions are one.
+    if held.is_empty() {
+        directions.push(state::direction(&reversed, Sense::Reversed, work.part(1, 4))?.1);
+    }
     let mut report = DriveReport {
         schema: SCHEMA,
         title: model.title.clone(),
         units: model.units.clone(),
         state,
         drives: drives.collect(),
-        directions: vec![forwards, opposite],
+        directions,
+        held,
         course,
         conclusion: Vec::new(),
     };
     report.suit_units();
     report.conclusion = words::conclusion(&report);
     finite(report)
+}
+
+/// With which efforts of each drive it stays at rest, if it is at rest on contacts that may lift off.
+///
+/// # Errors
+/// Whatever [`hold`](crate::standstill::hold) refuses.
+fn held(model: &Model, work: Work<'_>) -> Result<Vec<HeldEffort>, Faults> {
+    if !Stages::of_any_model(model)?.is_at_rest() {
+        return Ok(Vec::new());
+    }
+    let of_drive = |drive: &crate::model::Drive| {
+        let found = hold_within(model, &HoldOptions::default().load(&drive.name), work)?;
+        let words = found.answer();
+        let held = found.load.map_or_else(Vec::new, |load| load.held);
+        Ok(HeldEffort { drive: drive.name.to_string(), held, words })
+    };
+    model.drives.iter().map(of_drive).collect()
 }
 
 fn course(

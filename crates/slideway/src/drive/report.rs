@@ -2,6 +2,7 @@
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
 use crate::report::{CoordinateState, JointMode, Proof, Status, Undetermined, Unlocking, Verdict};
+use crate::standstill::Range;
 use crate::units::Units;
 use serde::Serialize;
 
@@ -25,6 +26,10 @@ pub struct DriveReport {
     pub drives: Vec<DriveName>,
     /// Motion as in the model, and with all rates reversed.
     pub directions: Vec<DriveDirection>,
+    /// At rest on contacts that may lift off: the efforts of each drive, the others absent, with which it stays at rest; any
+    /// other sets it in motion. Absent elsewhere.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<HeldEffort>,
     /// The efforts over what is varied, if anything is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub course: Option<Course>,
@@ -49,6 +54,18 @@ impl DriveReport {
         let values: Vec<_> = self.directions.iter().flat_map(of_direction).collect();
         self.units = std::mem::take(&mut self.units).suited_to(values);
     }
+}
+
+/// The efforts of a drive with which a mechanism stays at rest.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct HeldEffort {
+    /// The drive.
+    pub drive: String,
+    /// The ranges of its effort (N or N m), disjoint and in ascending order.
+    pub held: Vec<Range>,
+    /// The same in words: "It holds with `push` from -1.254 to 7.963 N."
+    pub words: String,
 }
 
 /// A drive.

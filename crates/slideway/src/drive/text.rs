@@ -4,7 +4,7 @@ use super::report::{
     Course, CourseDirection, CourseRow, DriveDirection, DriveName, DriveReport, DriveSolution, EffortRange,
     LockedRange, Sense,
 };
-use super::words::{advice, greatest, is_stable, percents, sentences, share, without_limit};
+use super::words::{advice, at_rest, greatest, is_stable, percents, sentences, share, without_limit};
 use crate::limits::{RangeWithoutProblem, no_answers};
 use crate::report::page::Page;
 use crate::report::{
@@ -48,6 +48,7 @@ impl Page<'_, DriveReport> {
         let state = report.state.iter().map(|coordinate| coordinate.in_words(&report.units));
         self.line(&state.collect::<Vec<_>>().join("; "));
         self.line("");
+        at_rest(report).for_each(|line| self.line(&line));
         for direction in &report.directions {
             self.status(direction.status, &sentences(report, direction).join(" "));
         }

@@ -14,13 +14,16 @@ const TOLD: usize = 4;
 
 /// The sentences of both directions of motion, and what makes an undetermined effort determinate.
 pub(super) fn conclusion(report: &DriveReport) -> Vec<String> {
-    report
-        .directions
-        .iter()
-        .flat_map(|direction| sentences(report, direction))
+    at_rest(report)
+        .chain(report.directions.iter().flat_map(|direction| sentences(report, direction)))
         .chain(advice(report))
         .chain(greatest(report))
         .collect()
+}
+
+/// With which efforts it stays at rest: "At rest it holds with `push` from -1.254 to 7.963 N."
+pub(super) fn at_rest(report: &DriveReport) -> impl Iterator<Item = String> + '_ {
+    report.held.iter().map(|held| format!("At rest: {}", held.words))
 }
 
 /// The greatest efforts over what is varied: "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an
@@ -128,7 +131,8 @@ fn as_block(direction: &DriveDirection) -> &'static str {
 
 /// "push needs 36.36 N (20 N without friction): efficiency 55 %"
 fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
-    let is_idle = only.efficiency.is == EfficiencyKind::NoPower && report.drives.len() == 1;
+    let may_be_idle = report.drives.len() == 1 && report.held.is_empty();
+    let is_idle = only.efficiency.is == EfficiencyKind::NoPower && may_be_idle;
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
         let with = unit.brief(*with);

@@ -10,8 +10,6 @@ use crate::progress::Work;
 use crate::report::Status;
 use crate::scan::{Scan, Stretch, evenly, samples};
 
-/// Part of a value within which states that give way to each other are not told apart: ten times the tolerance of their inequalities.
-const LEFT_OPEN: f64 = 1e-8;
 /// Steps of the evenly spaced values.
 const STEPS: usize = 100;
 
@@ -28,12 +26,11 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
     let (mut counts, mut starts, mut gaps) = (Vec::new(), Vec::new(), Vec::new());
     for Stretch { from, to, found, .. } in scan.adjoining(&tried) {
         match found {
-            Ok(found) if same_ends.are_two(from, to) && to - from > LEFT_OPEN * from.abs().max(to.abs()) => {
+            Ok(found) if same_ends.are_two(from, to) => {
                 counts.push(CountInterval { from, to, ..found.numbers });
                 starts.extend(found.starts);
             }
-            // About an end of a start both states hold within their tolerance.
-            Ok(_) => counts.last_mut().into_iter().for_each(|last: &mut CountInterval| last.to = to),
+            Ok(_) => {}
             Err(faults) => gaps.push(Gap { from, to, faults }),
         }
     }

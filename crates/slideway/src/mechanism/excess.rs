@@ -85,8 +85,8 @@ impl Mechanism {
         }
     }
 
-    /// The rows of the joint equations, in their order, those of what sticks last. Rotations are taken first: they are the same in every
-    /// position.
+    /// The rows of the joint equations, in their order, those of what sticks last. Rotations are taken first: they are the
+    /// same in every position.
     fn position_rows(&self) -> Vec<Row> {
         let mut rows = Vec::new();
         for joint in &self.joints {

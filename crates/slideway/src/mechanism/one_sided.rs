@@ -63,8 +63,8 @@ impl<T> Mechanism<T> {
 const ON_FACE: f64 = 1e-9;
 
 impl Mechanism {
-    /// Lets the joints that do not slip in the state move as the others. The numbers of other joint equations stay as they are, which
-    /// are before theirs.
+    /// Lets the joints that do not slip in the state move as the others. Other joint equations, which are before theirs, keep
+    /// their numbers.
     pub(crate) fn let_slip(&mut self) {
         for joint in &mut self.joints {
             if let JointKind::Slider(slider) = &mut joint.kind {

@@ -42,8 +42,8 @@ impl SolveReport {
         }
     }
 
-    /// What the joints do that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint is at
-    /// rest.
+    /// What the joints do that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint
+    /// is at rest.
     pub(crate) fn starts(&self) -> Option<Vec<String>> {
         let start = |solution: &Solution| {
             let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));

@@ -90,9 +90,9 @@ impl<'a> Answer<'a> {
         let mut tipping = Tipped::default();
         let mut states = States::default();
         let mut keep = |state: &State<'_>| self.keep(state, &mut states, &mut tipping);
-        for solution in lists.solutions.iter() {
+        for solution in &lists.solutions {
             let pattern = pressed(&solution.pattern);
-            let normal_force = Resting::sliding(self).refined_forces(&pattern, &solution.normal_force);
+            let normal_force = Resting::refined_forces(self, &pattern, &solution.normal_force);
             keep(&State { normal_force: &normal_force, ..regular(solution, &pattern) });
         }
         let singular: Vec<SingularMode> =

@@ -2,6 +2,7 @@
 
 use super::mode_problem::{ProblemData, Sliding, mode_problem, none_stands, self_stresses};
 use super::parts::Parts;
+use super::resting::may_lift_off;
 use super::sharing::check_assembly;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
@@ -152,6 +153,12 @@ impl Stages {
     /// A fault for them.
     pub(crate) fn check_moving(&self) -> Result<(), Faults> {
         none_stands(&self.mechanism, &self.standing)
+    }
+
+    /// Whether it is at rest on contacts that may lift off.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        let rests = self.configuration.rates.iter().all(|rate| *rate == 0.0);
+        rests && may_lift_off(&self.mechanism, &self.standing)
     }
 
     /// How redundant guides share their load; none if nothing is in excess.

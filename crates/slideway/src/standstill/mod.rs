@@ -150,7 +150,15 @@ pub(crate) fn can_hold(model: &Model, work: Work<'_>) -> Result<(), Faults> {
     check_states(&setup, MOST_STATES).map(|_| ())
 }
 
-fn hold_within(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<HoldReport, Faults> {
+/// [`hold`] in work that may end.
+///
+/// # Errors
+/// As [`hold`].
+pub(crate) fn hold_within(
+    model: &Model,
+    options: &HoldOptions,
+    work: Work<'_>,
+) -> Result<HoldReport, Faults> {
     let options = &with_load(model, options)?;
     let setup = Setup::new(model, options, work)?;
     let rest_patterns = check_states(&setup, MOST_STATES)?;

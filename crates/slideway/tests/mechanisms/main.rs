@@ -31,6 +31,7 @@ mod loads;
 mod margins;
 mod no_sliding;
 mod one_sided;
+mod one_sided_jams;
 mod one_sided_rest;
 mod one_sided_resting;
 mod one_sided_rolling;

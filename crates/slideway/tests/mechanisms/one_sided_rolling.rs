@@ -8,7 +8,7 @@ use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::ColourBy;
 use slideway::mechanism::Mechanism;
-use slideway::model::Model;
+use slideway::model::{Model, Settings};
 use slideway::report::{Report, Status};
 use slideway::sweep::{Rows, Sweep, SweepOptions};
 use slideway::{DriveOptions, HoldOptions, MapOptions, drive, hold, map};
@@ -131,6 +131,35 @@ fn limits_find_where_a_disc_begins_to_slip() {
     );
 }
 
+/// A box that is let go on a plane steeper than `b/h`: it slides flat up to `mu = b/h`, slides and tips up to
+/// `mu_2 = (sin - k h/2)/(cos + k b/2)` with `k = 3 (h sin - b cos)/(2 (b^2 + h^2))`, and tips about its edge beyond; of the reference.
+#[rstest]
+#[case(0.1, 0.4, 40.0, 0.383_406_168_2)]
+#[case(0.05, 0.4, 30.0, 0.233_554_816_5)]
+#[case(0.3, 0.4, 60.0, 0.931_385_856_3)]
+fn limits_find_where_a_box_begins_to_tip(
+    #[case] b: f64,
+    #[case] h: f64,
+    #[case] degrees: f64,
+    #[case] second: f64,
+) {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let k = 1.5 * (h * sin - b * cos) / (b * b + h * h);
+    assert_close((sin - k * h / 2.0) / (cos + k * b / 2.0), second, 1.0, 1e-9);
+    let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
+    let model = Model::parse(&text.replace("rate = \"-1 m/s\"", "")).unwrap();
+    let list =
+        [("b", b), ("h", h), ("slope", degrees.to_radians())].map(|(name, value)| (name, value.to_string()));
+    let settings =
+        list.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value.as_str()));
+    let found =
+        limits(&model.with(&settings).unwrap(), &LimitsOptions::new(Vary::between("mu", 0.0, 1.2))).unwrap();
+    let [flat, both, tips] = found.counts.as_slice() else { panic!("{:?}", found.counts) };
+    assert_close(flat.to, b / h, 1.0, 1e-8);
+    assert_close(both.to, second, 1.0, 1e-8);
+    assert!(tips.starts.as_ref().unwrap()[0].ends_with("it tips, sticks"), "{:?}", tips.starts);
+}
+
 /// Sweeps have the states of `solve` at every value, and maps tell where a disc rolls from where it is pushed into a slip.
 #[test]
 fn sweeps_and_maps_know_what_is_at_rest() {
@@ -167,16 +196,29 @@ fn sweeps_and_maps_know_what_is_at_rest() {
     );
 }
 
-/// A drive that holds a box on an incline needs anything from `m g (sin - mu cos)` to `m g (sin + mu cos)`; beyond it sets the box in motion.
+/// A drive that pushes a box along its incline at half its height: it tips from `|F - m g sin| = m g cos b/h` on, before it slides.
 #[test]
-fn a_drive_at_rest_has_the_range_that_friction_leaves() {
+fn a_drive_at_rest_tells_which_efforts_hold() {
     let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
     let text = text.replace("rate = \"-1 m/s\"", "");
-    let drive_table =
-        "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
-    let model = Model::parse(&(text + drive_table)).unwrap();
-    let report = drive(&model, &DriveOptions::default()).unwrap();
-    panic!("{report:#?}");
+    let push = "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
+    let report = drive(&Model::parse(&(text + push)).unwrap(), &DriveOptions::default()).unwrap();
+    let (sin, cos) = 20_f64.to_radians().sin_cos();
+    let [held] = report.held.as_slice() else { panic!("{:?}", report.held) };
+    let [range] = held.held.as_slice() else { panic!("{:?}", held.held) };
+    assert_close(range.least.unwrap(), GRAVITY * (sin - cos * 0.5), 1.0, 1e-9);
+    assert_close(range.greatest.unwrap(), GRAVITY * (sin + cos * 0.5), 1.0, 1e-9);
+    assert!(
+        report
+            .answer()
+            .starts_with("At rest: Without `push` it holds. It holds with `push` from -1.254 to 7.964 N."),
+        "{}",
+        report.answer()
+    );
+    assert_eq!(report.directions.len(), 1);
+    // No contact pulls.
+    let forces = &report.directions[0].range.as_ref().unwrap().undetermined.normal_forces;
+    assert!(forces.iter().all(|force| force.from.unwrap() > -1e-9), "{forces:?}");
 }
 
 #[test]

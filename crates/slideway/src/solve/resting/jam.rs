@@ -8,8 +8,8 @@
 //! M (v^+ - v) = impulses        |T| <= mu_static N,  v_t^+ = 0      T = mu N s,  s v_t^+ >= 0      N = T = 0,  g'^+ >= 0
 //! ```
 //!
-//! while what else slides goes on in its sense. All patterns with something that sticks are tried, as without any the only impulse
-//! is none.
+//! while what else slides goes on in its sense. All patterns with something that sticks are tried, as without any the only
+//! impulse is none.
 
 use super::patterns::{System, lighter_mass};
 use super::{Resting, RestingJoint, Start, joints_of};

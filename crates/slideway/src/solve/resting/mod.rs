@@ -133,6 +133,8 @@ struct Point {
     held: Vec<Held>,
     signs: Vec<i8>,
     oriented: f64,
+    /// The least slack of its inequalities, in the units in which they count.
+    least: f64,
 }
 
 /// Steps of refinement of the forces of a pattern.
@@ -145,23 +147,18 @@ impl<'a> Resting<'a> {
         Self { answer, joints, smooth, force }
     }
 
-    /// A mechanism of which no joint is at rest.
-    pub(super) fn sliding(answer: &'a Answer<'a>) -> Self {
-        Self::new(answer, Vec::new(), greatest_force(answer.influence))
-    }
-
     /// The normal forces of a state of a mechanism of which no joint is at rest, refined where contacts lift off.
     pub(super) fn refined_forces(
-        &self,
+        answer: &'a Answer<'a>,
         states: &[ContactState],
         normal_force: &DVector<f64>,
     ) -> DVector<f64> {
-        if !self.answer.can_be_refined(states) {
+        if !answer.can_be_refined(states) {
             return normal_force.clone();
         }
         let pattern = Pattern { states: states.to_vec(), starts: Vec::new() };
-        let system = self.system(pattern, self.answer.mechanism);
-        let forces = self.refined(&system, normal_force.abs());
+        let sliding = Self::new(answer, Vec::new(), greatest_force(answer.influence));
+        let forces = sliding.refined(&sliding.system(pattern, answer.mechanism), normal_force.abs());
         DVector::from_fn(forces.len(), |k, _| states[k].sign() * forces[k])
     }
 
@@ -206,13 +203,14 @@ impl<'a> Resting<'a> {
             if set.dimension() == 0 {
                 let unknowns = self.refined(&system, set.particular() * self.force);
                 if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
-                    solutions.extend(self.solution(&point, &mut tipped));
+                    let solution = self.solution(&point, &mut tipped);
+                    solutions.extend(solution.map(|solution| (solution, point.least)));
                 }
             } else {
                 continua.extend(self.continuum(&system, &set));
             }
         }
-        let solutions = distinct(solutions, &[]);
+        let solutions = distinct(self.without_bounds(&solutions), &[]);
         Ok(SolveReport {
             status: status(false, solutions.len(), 0, continua.len()),
             complete: Proof::NotProven,
@@ -227,6 +225,28 @@ impl<'a> Resting<'a> {
             rejected: tipped.rejected,
             ..self.answer.report_without_solutions(open)
         })
+    }
+
+    /// Solutions with their least slacks, without those that miss an inequality by rounding where another one, which has the
+    /// same forces to ten times that, does not: about the end of one state both hold within the tolerance.
+    fn without_bounds(&self, solutions: &[(Solution, f64)]) -> Vec<Solution> {
+        let forces = |solution: &Solution| -> Vec<f64> {
+            solution
+                .contacts
+                .iter()
+                .flat_map(|contact| [contact.normal_force, contact.friction_force])
+                .collect()
+        };
+        let is_same = |one: &Solution, other: &Solution| {
+            let (one, other) = (forces(one), forces(other));
+            let scale = one.iter().chain(&other).map(|force| force.abs()).fold(self.force, f64::max);
+            one.iter().zip(&other).all(|(one, other)| (one - other).abs() <= 10.0 * TOLERANCE * scale)
+        };
+        let is_kept = |(solution, least): &&(Solution, f64)| {
+            let beside = |(other, slack): &(Solution, f64)| *slack >= 0.0 && is_same(solution, other);
+            *least >= 0.0 || !solutions.iter().any(beside)
+        };
+        solutions.iter().filter(is_kept).map(|(solution, _)| solution.clone()).collect()
     }
 
     fn name(&self, joint: &RestingJoint) -> &str {
@@ -246,8 +266,8 @@ impl<'a> Resting<'a> {
     ) -> Option<Point> {
         let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
         let begins = beginning.iter().all(|slack| slack.constant > rounding);
-        let holds = slacks.iter().all(|slack| slack.constant >= -rounding);
-        (begins && holds).then(|| self.at(system, unknowns))
+        let least = slacks.iter().map(|slack| slack.constant).fold(f64::INFINITY, f64::min);
+        (begins && least >= -rounding).then(|| Point { least, ..self.at(system, unknowns) })
     }
 
     /// What contacts do with these unknowns. Forces that are rounding are none.
@@ -285,6 +305,7 @@ impl<'a> Resting<'a> {
             signs: signs(states).into_iter().enumerate().map(sign).collect(),
             held,
             oriented: self.oriented(system).unwrap_or(0.0),
+            least: 0.0,
             pattern: system.pattern.clone(),
         }
     }
@@ -296,9 +317,9 @@ impl<'a> Resting<'a> {
         Some(kept)
     }
 
-    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick: not
-    /// where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and without
-    /// any that stick the state is that of contacts that slide.
+    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick:
+    /// not where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and
+    /// without any that stick the state is that of contacts that slide.
     fn attainability(&self, point: &Point) -> Attainability {
         let Answer { mechanism, configuration, influence, .. } = *self.answer;
         let (signs, states) = (self.signs(&point.pattern), &point.pattern.states);
@@ -369,7 +390,11 @@ impl<'a> Resting<'a> {
         let unknowns = |free: &DVector<f64>| set.at(free) * self.force;
         let point = |free: &DVector<f64>| self.at(system, &unknowns(free));
         let all = |free: &DVector<f64>| self.answer.unknowns(&point(free).state());
-        let list = |point: &Point| point.normal_force.iter().map(|force| force + 0.0).collect::<Vec<f64>>();
+        let list = |point: &Point| {
+            let mut forces: Vec<f64> = point.normal_force.iter().map(|force| force + 0.0).collect();
+            self.answer.mechanism.put_out_of_open(&point.pattern.states, &mut forces, 0.0);
+            forces
+        };
         let along = |growth: &DVector<f64>| point(&(first + growth));
         let growth = |growth: &DVector<f64>| self.answer.growth(&all(first), &all(&(first + growth)), 1.0);
         let difference = |growth: &DVector<f64>| {
