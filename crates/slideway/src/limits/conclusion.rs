@@ -129,9 +129,13 @@ impl Piece {
     fn sentence(&self, varied: &Varied, method: Method) -> String {
         let Self { from, to, ref verdict, known, .. } = *self;
         let verdict = if known == Known::Undecided { "not decided" } else { verdict };
-        let sampled = if known == Known::Sampled { " (sampled)" } else { "" };
+        let verdict = match verdict.strip_suffix(')') {
+            _ if known != Known::Sampled => verdict.to_owned(),
+            Some(verdict) => format!("{verdict}, sampled)"),
+            None => format!("{verdict} (sampled)"),
+        };
         let same = if matches!(method, Method::Same { .. }) { ", the same in the whole range" } else { "" };
-        format!("{}{same}: {verdict}{sampled}.", varied.shown_in.range(&varied.name, [from, to]))
+        format!("{}{same}: {verdict}.", varied.shown_in.range(&varied.name, [from, to]))
     }
 }
 
