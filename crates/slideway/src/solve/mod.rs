@@ -32,6 +32,7 @@ mod locking;
 mod margins;
 mod mode_problem;
 mod no_sliding;
+mod one_face;
 mod parts;
 mod resting;
 mod sharing;
@@ -57,6 +58,7 @@ pub(crate) use mode_problem::{
     NO_INFLUENCE, ProblemData, SAME_COLUMN, Sliding, preload_columns, sides, sliding_signs, without_rounding,
 };
 pub use mode_problem::{mode_problem, velocity_signs};
+pub(crate) use one_face::{NormalForces, Pressed, one_face_hints};
 pub(crate) use parts::Parts;
 pub(crate) use resting::sliding_or_resting;
 pub(crate) use sharing::load_sharing;
@@ -156,6 +158,7 @@ pub fn solve_with(
     if let Some(mut report) = resting::of_mechanism(&mechanism, &configuration)? {
         report.open.extend(taken_at_the_middle(&model.ranges()?));
         report.rates_not_given = rates_not_given(model);
+        report.one_face_hints = one_face::of_solutions(model, (&mechanism, &configuration), &report);
         report.suit_units();
         return finite(report);
     }
@@ -200,6 +203,7 @@ fn answered(
         if options.margins {
             from_rest::add(&mut report, model, progress);
         }
+        report.one_face_hints = one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
         report.suit_units();
         return finite(report);
     }
@@ -231,6 +235,7 @@ fn answered(
         from_rest::add(&mut report, model, progress);
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
+    report.one_face_hints = one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
     report.suit_units();
     finite(report)
 }
