@@ -37,6 +37,14 @@ draw four-bar.svg models/four-bar.toml
 draw quick-return.svg models/quick-return.toml
 draw over-centre-clamp.svg models/over-centre-clamp.toml
 draw bracket-on-pole.svg models/bracket-on-pole.toml
+draw ladder.svg models/ladder.toml
+draw box-on-incline.svg models/box-on-incline.toml
+draw rod-on-floor.svg models/rod-on-floor.toml
+draw peg-in-hole.svg models/peg-in-hole.toml
+draw latch-with-pawl.svg models/latch-with-pawl.toml
+draw cam-and-spring.svg models/cam-and-spring.toml
+draw nip-of-rolls.svg models/nip-of-rolls.toml
+draw shaft-in-v-block.svg models/shaft-in-v-block.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
