@@ -72,6 +72,7 @@ plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --qu
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
     --output "$pictures/map-modes.svg" --force
+"$slideway" map models/peg-in-hole.toml --x mu=0..0.4 --y off=-30mm..30mm --output "$pictures/map-peg.svg" --force
 "$slideway" map models/drawer.toml --x mu=0..1 --y "L=200 mm..500 mm" --colour-by margin \
     --output "$pictures/map-margin.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by jam \

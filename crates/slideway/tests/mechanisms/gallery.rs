@@ -255,6 +255,25 @@ fn the_booms_patterns_grow_as_four_to_the_stages() {
     assert_eq!(retracting.complete, Proof::Proven);
 }
 
+/// `M = mu R W/((1 + mu^2) cos(beta))`; from `mu = tan(beta)` on the right flank opens, and the left one carries
+/// `W cos(beta)`: derived in the book.
+#[test]
+fn a_shaft_rubs_in_its_v_or_climbs_out() {
+    let weight = 3.0 * 9.81;
+    for (beta, mu) in [(60.0_f64, 0.2_f64), (60.0, 1.7), (30.0, 0.57), (60.0, 1.8), (30.0, 0.6)] {
+        let report = report(
+            "shaft-in-v-block",
+            &[("beta", &format!("{beta} deg")), ("mu", &mu.to_string())],
+        );
+        let solution = only(&report);
+        let (sin, cos) = beta.to_radians().sin_cos();
+        let climbs = mu > sin / cos;
+        let presses = if climbs { weight * cos } else { weight / ((1.0 + mu * mu) * cos) };
+        assert!((solution.drives[0].effort - mu * 0.02 * presses).abs() < 1e-12, "{beta} {mu}");
+        assert_eq!(contact(solution, "right").normal_force == 0.0, climbs, "{beta} {mu}");
+    }
+}
+
 #[test]
 fn names_are_unique_and_found() {
     let names: BTreeSet<&str> = MODELS.iter().map(|entry| entry.name).collect();
