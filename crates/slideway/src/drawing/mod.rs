@@ -35,9 +35,9 @@ mod load;
 mod quantity;
 
 pub use joint::{
-    BetweenFaces, BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, DiscOnDisc, DiscOnFace, GuidedSlider,
-    HasLength, HingeBuilder, MayLiftOff, OnLine, OneContact, PinInSlot, Slider, SliderBuilder, SliderKind,
-    TwoContacts, kind,
+    BetweenFaces, BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, DiscOnDisc, DiscOnFace,
+    GuidedSlider, HasLength, HingeBuilder, MayLiftOff, OnLine, OneContact, PinInSlot, Slider, SliderBuilder,
+    SliderKind, TwoContacts, kind,
 };
 pub use load::{DriveBuilder, ForceBuilder, LoadBuilder};
 pub use quantity::Quantity;

@@ -203,7 +203,8 @@ fn answered(
         if options.margins {
             from_rest::add(&mut report, model, progress);
         }
-        report.one_face_hints = one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
+        report.one_face_hints =
+            one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
         report.suit_units();
         return finite(report);
     }
@@ -235,7 +236,8 @@ fn answered(
         from_rest::add(&mut report, model, progress);
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
-    report.one_face_hints = one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
+    report.one_face_hints =
+        one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
     report.suit_units();
     finite(report)
 }

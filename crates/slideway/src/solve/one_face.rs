@@ -62,7 +62,9 @@ pub(crate) fn one_face_hints(
     let hint = |(index, joint): (usize, &model::Joint)| {
         let model::JointKind::Slider(written) = &joint.kind else { return None };
         let JointKind::Slider(slider) = &mechanism.joints.get(index)?.kind else { return None };
-        if states_two_faces(written, slider) || mechanism.may_lift_off(slider) || is_redundant(mechanism, slider)
+        if states_two_faces(written, slider)
+            || mechanism.may_lift_off(slider)
+            || is_redundant(mechanism, slider)
         {
             return None;
         }

@@ -1,8 +1,8 @@
 //! Decisions agree with `solve` where all joints slide, and with `hold` where all are at rest.
 
 use crate::set_up::{State, assert_close, joints, sides};
-use slideway::configuration::Configuration;
 use slideway::check;
+use slideway::configuration::Configuration;
 use slideway::gallery::{GalleryModel, MODELS};
 use slideway::ids::JointId;
 use slideway::kinetics::KineticEquations;
@@ -108,9 +108,8 @@ fn assert_turning(name: &str, state: &State, report: &SolveReport) {
 
 /// The models of the gallery whose motion in time is computed.
 fn moving() -> impl Iterator<Item = &'static GalleryModel> {
-    let is_ready = |entry: &&GalleryModel| {
-        check(&Model::parse(entry.text).unwrap()).unwrap().is_ready_for("simulate")
-    };
+    let is_ready =
+        |entry: &&GalleryModel| check(&Model::parse(entry.text).unwrap()).unwrap().is_ready_for("simulate");
     MODELS.iter().filter(is_ready)
 }
 

@@ -9,7 +9,9 @@ use super::random_linkages::Random;
 use super::unrelated::{beside_a_pendulum, cart_and_block};
 use slideway::report::Solution;
 use slideway::standstill::{Range, Reactions};
-use slideway::{DriveOptions, HoldOptions, LimitsOptions, Model, Vary, check, drive, gallery, hold, limits, solve};
+use slideway::{
+    DriveOptions, HoldOptions, LimitsOptions, Model, Vary, check, drive, gallery, hold, limits, solve,
+};
 use std::fmt::Write;
 
 const TOLERANCE: f64 = 1e-6;

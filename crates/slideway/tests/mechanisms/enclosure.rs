@@ -18,7 +18,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::modes::ContactState::{self, Negative, Positive};
 use slideway::modes::certificate::{Decision, decide};
-use slideway::solve::{SolveOptions, solve_with};
+use slideway::solve::{SolveOptions, solve, solve_with};
 use std::cell::Cell;
 use std::fmt::Write;
 use std::ops::ControlFlow;

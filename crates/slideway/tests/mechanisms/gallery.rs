@@ -261,10 +261,7 @@ fn the_booms_patterns_grow_as_four_to_the_stages() {
 fn a_shaft_rubs_in_its_v_or_climbs_out() {
     let weight = 3.0 * 9.81;
     for (beta, mu) in [(60.0_f64, 0.2_f64), (60.0, 1.7), (30.0, 0.57), (60.0, 1.8), (30.0, 0.6)] {
-        let report = report(
-            "shaft-in-v-block",
-            &[("beta", &format!("{beta} deg")), ("mu", &mu.to_string())],
-        );
+        let report = report("shaft-in-v-block", &[("beta", &format!("{beta} deg")), ("mu", &mu.to_string())]);
         let solution = only(&report);
         let (sin, cos) = beta.to_radians().sin_cos();
         let climbs = mu > sin / cos;

@@ -453,7 +453,9 @@ fn three_corners_on_a_line_are_refused() {
 #[test]
 fn corners_that_cannot_touch_together_are_refused_and_wedged() {
     let corner = |name: &str, at: &str, along: &str| {
-        format!("[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = \"{at}\"\nalong = \"{along}\"\nmu = 0.3\n")
+        format!(
+            "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = \"{at}\"\nalong = \"{along}\"\nmu = 0.3\n"
+        )
     };
     let text = format!(
         "[points]\nC = [0, 0]\nA = [-1, -2]\nB = [1, -2]\nD = [-1, 2]\nE = [1, 2]\n[bodies.peg]\npoints = [\"C\", \"A\", \"B\", \"D\", \"E\"]\n\
