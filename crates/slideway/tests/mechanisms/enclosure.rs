@@ -81,8 +81,14 @@ fn column<T: nalgebra::Scalar>(vector: &DVector<T>) -> DMatrix<T> {
 /// How far the rounded influence is outside of its enclosure.
 fn influence_outside(enclosed: &EnclosedModeProblem, rounded: &Influence) -> f64 {
     let found = &enclosed.outputs.influence;
+    // What may lift off has no second face.
+    let (mut bounds, mut negative) = (found.eta.negative.clone(), rounded.eta(1));
+    for (contact, _) in &found.one_sided {
+        bounds.column_mut(*contact).fill(Interval::ZERO);
+        negative.column_mut(*contact).fill(0.0);
+    }
     outside(&found.eta.positive, &rounded.eta(0))
-        .max(outside(&found.eta.negative, &rounded.eta(1)))
+        .max(outside(&bounds, &negative))
         .max(outside(&column(&found.frictionless), &column(&rounded.normal_forces())))
 }
 
