@@ -37,6 +37,14 @@ draw four-bar.svg models/four-bar.toml
 draw quick-return.svg models/quick-return.toml
 draw over-centre-clamp.svg models/over-centre-clamp.toml
 draw bracket-on-pole.svg models/bracket-on-pole.toml
+draw ladder.svg models/ladder.toml
+draw box-on-incline.svg models/box-on-incline.toml
+draw rod-on-floor.svg models/rod-on-floor.toml
+draw peg-in-hole.svg models/peg-in-hole.toml
+draw latch-with-pawl.svg models/latch-with-pawl.toml
+draw cam-and-spring.svg models/cam-and-spring.toml
+draw nip-of-rolls.svg models/nip-of-rolls.toml
+draw shaft-in-v-block.svg models/shaft-in-v-block.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
@@ -64,6 +72,7 @@ plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --qu
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
     --output "$pictures/map-modes.svg" --force
+"$slideway" map models/peg-in-hole.toml --x mu=0..0.4 --y off=-30mm..30mm --output "$pictures/map-peg.svg" --force
 "$slideway" map models/drawer.toml --x mu=0..1 --y "L=200 mm..500 mm" --colour-by margin \
     --output "$pictures/map-margin.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by jam \

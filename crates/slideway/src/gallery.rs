@@ -1,29 +1,17 @@
 //! The gallery: documented model files to start from, each with a test that it shows what it says.
 
-/// A model of the gallery.
+/// A model of the gallery. Which questions it answers, [`check`](mod@crate::check) says.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct GalleryModel {
     /// Its name: that of its file without the ending.
     pub name: &'static str,
     /// The text of its file.
     pub text: &'static str,
-    /// Whether its guides are redundant: its motion in time is not computed.
-    pub redundant: bool,
 }
 
 macro_rules! gallery {
-    ($($name:literal),* ; redundant: $($redundant:literal),* $(,)?) => {
-        &[
-            $(gallery!(@model $name, false),)*
-            $(gallery!(@model $redundant, true),)*
-        ]
-    };
-    (@model $name:literal, $redundant:literal) => {
-        GalleryModel {
-            name: $name,
-            text: include_str!(concat!("../models/", $name, ".toml")),
-            redundant: $redundant,
-        }
+    ($($name:literal),* $(,)?) => {
+        &[$(GalleryModel { name: $name, text: include_str!(concat!("../models/", $name, ".toml")) }),*]
     };
 }
 
@@ -52,12 +40,19 @@ pub const MODELS: &[GalleryModel] = gallery![
     "stick-slip",
     "stribeck-belt",
     "thrown-drawer",
-    "soft-closing-drawer";
-    redundant:
+    "soft-closing-drawer",
     "drawer-on-two-rails",
     "carriage-on-two-rods",
     "gate-on-two-posts",
     "three-pad-telescope",
+    "ladder",
+    "box-on-incline",
+    "rod-on-floor",
+    "peg-in-hole",
+    "latch-with-pawl",
+    "cam-and-spring",
+    "nip-of-rolls",
+    "shaft-in-v-block",
 ];
 
 impl GalleryModel {

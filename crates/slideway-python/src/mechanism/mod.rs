@@ -14,8 +14,7 @@ use crate::model::Model;
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use slideway::drawing::{
-    BlockSlider, BodyBuilder, CoordinateBuilder, DriveBuilder, ForceBuilder, LoadBuilder, SingleSlider,
-    SliderBuilder,
+    BodyBuilder, CoordinateBuilder, DriveBuilder, ForceBuilder, LoadBuilder, SliderBuilder,
 };
 pub(crate) use state::GROUND;
 use state::{State, found};
@@ -158,9 +157,9 @@ impl Mechanism {
         self.add_slider(py, (name, ["block", "guide"], [block, guide]), |drawing, [block, guide]| {
             let slider = values.say(drawing.block_slider(name, block, guide)).length(length);
             let slider = slider
-                .with(height, SliderBuilder::<BlockSlider>::height)
-                .when(around, SliderBuilder::<BlockSlider>::around)
-                .when(centred_preload, SliderBuilder::<BlockSlider>::centred_preload)
+                .with(height, SliderBuilder::height)
+                .when(around, SliderBuilder::around)
+                .when(centred_preload, SliderBuilder::centred_preload)
                 .with(front, |slider, front| slider.front(|contact| front.say(contact)))
                 .with(rear, |slider, rear| slider.rear(|contact| rear.say(contact)));
             supports.into_iter().fold(slider, |slider, support| support.say(slider)).id()
@@ -204,9 +203,9 @@ impl Mechanism {
         self.add_slider(py, (name, ["block", "guide"], [block, guide]), |drawing, [block, guide]| {
             let slider = values.say(drawing.guided_slider(name, block, guide)).length(length);
             slider
-                .with(height, SliderBuilder::<SingleSlider<true>>::height)
-                .when(around, SliderBuilder::<SingleSlider<true>>::around)
-                .when(centred_preload, SliderBuilder::<SingleSlider<true>>::centred_preload)
+                .with(height, SliderBuilder::height)
+                .when(around, SliderBuilder::around)
+                .when(centred_preload, SliderBuilder::centred_preload)
                 .id()
         })
     }

@@ -6,7 +6,7 @@ use crate::fault::Texts;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use serde::{Deserialize, Serialize};
-use slideway::drawing::{Quantity, SliderHandle};
+use slideway::drawing::{Quantity, Slider};
 use slideway::fault::{Fault, FaultKind, nearest};
 use slideway::ids::{BodyId, CoordinateId, Frame, JointId};
 use slideway::model::Settings;
@@ -112,11 +112,11 @@ impl Mechanism {
     }
 
     /// Adds a sliding joint.
-    pub(super) fn add_slider<S: SliderHandle + Into<JointId>>(
+    pub(super) fn add_slider<K>(
         &self,
         py: Python<'_>,
         (name, arguments, frames): (&str, [&str; 2], [&str; 2]),
-        slider: impl FnOnce(&mut Drawing, [Frame; 2]) -> S,
+        slider: impl FnOnce(&mut Drawing, [Frame; 2]) -> Slider<K>,
     ) -> PyResult<String> {
         self.add(py, ("joint", name), |state| {
             let frames = state.frames(arguments, frames)?;

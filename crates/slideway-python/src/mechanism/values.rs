@@ -5,7 +5,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyMapping, PyString};
 use slideway::drawing::{
-    BlockSlider, BodyBuilder, ContactBuilder, CoordinateBuilder, Quantity, SliderBuilder, SliderHandle,
+    BodyBuilder, ContactBuilder, CoordinateBuilder, OnLine, Quantity, SliderBuilder, kind,
 };
 use slideway::fault::nearest;
 
@@ -267,7 +267,7 @@ impl Support {
         Ok(supports)
     }
 
-    pub(super) fn say(self, slider: SliderBuilder<'_, BlockSlider>) -> SliderBuilder<'_, BlockSlider> {
+    pub(super) fn say(self, slider: SliderBuilder<'_, kind::Block>) -> SliderBuilder<'_, kind::Block> {
         slider.support(&self.name, self.at, |contact| self.contact.say(contact))
     }
 }
@@ -298,7 +298,7 @@ impl SliderValues {
         })
     }
 
-    pub(super) fn say<S: SliderHandle>(self, slider: SliderBuilder<'_, S>) -> SliderBuilder<'_, S> {
+    pub(super) fn say<K: OnLine>(self, slider: SliderBuilder<'_, K>) -> SliderBuilder<'_, K> {
         let ContactValues { mu, mu_static, preload, stiffness, play, misalignment, pad } = self.contacts;
         slider
             .at(self.at)

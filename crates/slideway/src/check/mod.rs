@@ -93,6 +93,13 @@ pub struct CheckReport {
     pub coordinates: Vec<CoordinateSummary>,
 }
 
+impl CheckReport {
+    /// Returns whether the model can answer a question in this state: "solve", "drive", "hold" or "simulate".
+    pub fn is_ready_for(&self, question: &str) -> bool {
+        self.questions.iter().any(|asked| asked.name == question && asked.ready)
+    }
+}
+
 /// Something for which the model would be refused.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]

@@ -76,194 +76,130 @@ impl<'d> HingeBuilder<'d> {
     }
 }
 
-/// A block slider: a joint with two contacts.
+/// The handle of a sliding joint of some kind.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BlockSlider {
+pub struct Slider<K> {
     joint: JointId,
-    front: ContactId,
+    first: ContactId,
+    kind: PhantomData<K>,
 }
 
-impl BlockSlider {
+impl<K> From<Slider<K>> for JointId {
+    fn from(slider: Slider<K>) -> Self {
+        slider.joint
+    }
+}
+
+impl<K: TwoContacts> Slider<K> {
     /// The contact at the end in the direction of `along`.
     pub fn front(self) -> ContactId {
-        self.front
+        self.first
     }
 
     /// The contact at the other end.
     pub fn rear(self) -> ContactId {
-        ContactId(self.front.index() + 1)
+        ContactId(self.first.index() + 1)
     }
 }
 
-/// A guided slider, or a pin in a slot: a joint with one contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct SingleSlider<const GUIDED: bool> {
-    joint: JointId,
-    contact: ContactId,
-}
-
-impl<const GUIDED: bool> SingleSlider<GUIDED> {
+impl<K: OneContact> Slider<K> {
     /// Its contact.
     pub fn contact(self) -> ContactId {
-        self.contact
+        self.first
     }
 }
 
-/// A block on a face, which both of its corners may leave: a joint with two contacts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct BlockOnFace(BlockSlider);
-
-impl BlockOnFace {
-    /// The corner at the end in the direction of `along`.
-    pub fn front(self) -> ContactId {
-        self.0.front()
-    }
-
-    /// The corner at the other end.
-    pub fn rear(self) -> ContactId {
-        self.0.rear()
-    }
-}
-
-/// A corner on a face, which it may leave: a joint with one contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CornerOnFace(SingleSlider<false>);
-
-impl CornerOnFace {
-    /// Its contact.
-    pub fn contact(self) -> ContactId {
-        self.0.contact()
-    }
-}
-
-/// A disc on a face, which it may leave: a joint with one contact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct DiscOnFace(SingleSlider<false>);
-
-impl DiscOnFace {
-    /// Its contact.
-    pub fn contact(self) -> ContactId {
-        self.0.contact()
-    }
-}
-
-impl From<DiscOnFace> for JointId {
-    fn from(disc: DiscOnFace) -> Self {
-        disc.0.into()
-    }
-}
-
-impl From<BlockOnFace> for JointId {
-    fn from(block: BlockOnFace) -> Self {
-        block.0.into()
-    }
-}
-
-impl From<CornerOnFace> for JointId {
-    fn from(corner: CornerOnFace) -> Self {
-        corner.0.into()
-    }
-}
-
-impl From<BlockSlider> for JointId {
-    fn from(slider: BlockSlider) -> Self {
-        slider.joint
-    }
-}
-
-impl<const GUIDED: bool> From<SingleSlider<GUIDED>> for JointId {
-    fn from(slider: SingleSlider<GUIDED>) -> Self {
-        slider.joint
-    }
-}
-
-/// The handle of a sliding joint.
-pub trait SliderHandle: Copy + sealed::Sealed {
+/// A kind of sliding joint.
+pub trait SliderKind: Copy + sealed::Sealed {
     #[doc(hidden)]
     const TYPE: &'static str;
     #[doc(hidden)]
     const CONTACTS: usize;
+}
+
+/// The kinds with a contact at the front and one at the rear.
+pub trait TwoContacts: SliderKind {}
+/// The kinds with one contact.
+pub trait OneContact: SliderKind {}
+/// The kinds that have a length along a straight guide.
+pub trait HasLength: SliderKind {}
+/// The kinds whose block is held between two faces some distance apart.
+pub trait BetweenFaces: SliderKind {}
+/// The kinds with a place and a direction of their own: on a straight guide or face.
+pub trait OnLine: SliderKind {
     #[doc(hidden)]
     const PLACE: &'static str = "at";
-    #[doc(hidden)]
-    fn of(joint: JointId, first: ContactId) -> Self;
 }
+/// The kinds that may lift off.
+pub trait MayLiftOff: SliderKind {}
 
 mod sealed {
     pub trait Sealed {}
-    impl Sealed for super::BlockSlider {}
-    impl<const GUIDED: bool> Sealed for super::SingleSlider<GUIDED> {}
-    impl Sealed for super::BlockOnFace {}
-    impl Sealed for super::CornerOnFace {}
-    impl Sealed for super::DiscOnFace {}
 }
 
-impl SliderHandle for BlockSlider {
-    const TYPE: &'static str = "block_slider";
-    const CONTACTS: usize = 2;
-    fn of(joint: JointId, front: ContactId) -> Self {
-        Self { joint, front }
-    }
+/// Defines the kinds: the name of the handle, that of the kind, the type in the model file, the number of contacts, and what it
+/// shares with other kinds.
+macro_rules! kinds {
+    ($($(#[$doc:meta])* $handle:ident = $kind:ident, $type:literal, $contacts:literal: $($trait:ident),*;)*) => {
+        /// The kinds of sliding joints.
+        pub mod kind {
+            $($(#[$doc])*
+            #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+            pub enum $kind {})*
+        }
+
+        $(impl sealed::Sealed for kind::$kind {}
+        impl SliderKind for kind::$kind {
+            const TYPE: &'static str = $type;
+            const CONTACTS: usize = $contacts;
+        }
+        $(impl $trait for kind::$kind {})*
+        $(#[$doc])*
+        pub type $handle = Slider<kind::$kind>;)*
+    };
 }
 
-impl<const GUIDED: bool> SliderHandle for SingleSlider<GUIDED> {
-    const TYPE: &'static str = if GUIDED { "guided_slider" } else { "pin_in_slot" };
-    const CONTACTS: usize = 1;
-    fn of(joint: JointId, contact: ContactId) -> Self {
-        Self { joint, contact }
-    }
+kinds! {
+    /// A block in a guide: a joint with two contacts.
+    BlockSlider = Block, "block_slider", 2: TwoContacts, HasLength, BetweenFaces, OnLine;
+    /// A slider pressed on one side along its whole length: a joint with one contact.
+    GuidedSlider = Guided, "guided_slider", 1: OneContact, HasLength, BetweenFaces, OnLine;
+    /// A pin in a slot: a joint with one contact.
+    PinInSlot = Pin, "pin_in_slot", 1: OneContact, OnLine;
+    /// A block on a face, which both of its corners may leave: a joint with two contacts.
+    BlockOnFace = OnFace, "block_on_face", 2: TwoContacts, HasLength, OnLine, MayLiftOff;
+    /// A corner on a face, which it may leave: a joint with one contact.
+    CornerOnFace = Corner, "corner_on_face", 1: OneContact, OnLine, MayLiftOff;
+    /// A disc on a face, which it may leave: a joint with one contact.
+    DiscOnFace = Disc, "disc_on_face", 1: OneContact, MayLiftOff;
+    /// A disc on a disc or in a hole, which it may leave: a joint with one contact.
+    DiscOnDisc = Discs, "disc_on_disc", 1: OneContact, MayLiftOff;
 }
 
-impl SliderHandle for BlockOnFace {
-    const TYPE: &'static str = "block_on_face";
-    const CONTACTS: usize = 2;
-    fn of(joint: JointId, front: ContactId) -> Self {
-        Self(BlockSlider::of(joint, front))
-    }
-}
-
-impl SliderHandle for DiscOnFace {
-    const TYPE: &'static str = "disc_on_face";
-    const CONTACTS: usize = 1;
+impl OnLine for kind::Disc {
     const PLACE: &'static str = "centre";
-    fn of(joint: JointId, contact: ContactId) -> Self {
-        Self(SingleSlider::of(joint, contact))
-    }
 }
 
-impl SliderHandle for CornerOnFace {
-    const TYPE: &'static str = "corner_on_face";
-    const CONTACTS: usize = 1;
-    fn of(joint: JointId, contact: ContactId) -> Self {
-        Self(SingleSlider::of(joint, contact))
-    }
-}
-
-/// A sliding joint of a [`Drawing`]. What belongs to one kind of joint only is in that kind's methods.
+/// A sliding joint of a [`Drawing`]. What belongs to some kinds of joints only is in the methods of these.
 #[derive(Debug)]
-pub struct SliderBuilder<'d, S> {
+pub struct SliderBuilder<'d, K> {
     drawing: &'d mut Drawing,
-    id: JointId,
-    first: ContactId,
-    handle: PhantomData<S>,
+    name: String,
+    between: [Frame; 2],
+    handle: Slider<K>,
 }
 
-impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
-    pub(super) fn new(drawing: &'d mut Drawing, name: &str, [block, guide]: [Frame; 2]) -> Self {
-        let id = JointId(drawing.joints.add(name));
+impl<'d, K: SliderKind> SliderBuilder<'d, K> {
+    fn of_kind(drawing: &'d mut Drawing, name: &str, between: [Frame; 2]) -> Self {
+        let joint = JointId(drawing.joints.add(name));
         let first = ContactId(drawing.contacts);
-        drawing.contacts += S::CONTACTS;
-        let (block, guide) = (drawing.frame(block), drawing.frame(guide));
-        let table = drawing.joints.table(id.index());
-        table.set("type", quantity::text(S::TYPE));
-        table.set("block", block);
-        table.set("guide", guide);
-        table.set("along", 0.0.into());
-        Self { drawing, id, first, handle: PhantomData }
+        drawing.contacts += K::CONTACTS;
+        drawing.joints.table(joint.index()).set("type", quantity::text(K::TYPE));
+        Self { drawing, name: name.to_owned(), between, handle: Slider { joint, first, kind: PhantomData } }
     }
 
     fn table(&mut self) -> &mut Table {
-        self.drawing.joints.table(self.id.index())
+        self.drawing.joints.table(self.handle.joint.index())
     }
 
     fn set(mut self, key: &str, value: Quantity) -> Self {
@@ -271,12 +207,25 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
         self
     }
 
-    /// Middle of the block, the pin, or the centre of the disc, in the drawing (m).
-    pub fn at(self, place: [impl Into<Quantity>; 2]) -> Self {
-        self.set(S::PLACE, quantity::pair(place))
+    /// The handle.
+    pub fn id(self) -> Slider<K> {
+        self.handle
+    }
+}
+
+impl<'d, K: OnLine> SliderBuilder<'d, K> {
+    pub(super) fn new(drawing: &'d mut Drawing, name: &str, between: [Frame; 2]) -> Self {
+        let [block, guide] = between.map(|frame| drawing.frame(frame));
+        let slider = Self::of_kind(drawing, name, between);
+        slider.set("block", block).set("guide", guide).set("along", 0.0.into())
     }
 
-    /// Direction of positive sliding: the angle from the x axis (rad). Default: 0.
+    /// Middle of the block, the pin, the corner, or the centre of the disc, in the drawing (m).
+    pub fn at(self, place: [impl Into<Quantity>; 2]) -> Self {
+        self.set(K::PLACE, quantity::pair(place))
+    }
+
+    /// Direction of positive sliding: the angle from the x axis (rad). Default: 0. What lies on a face is to its left.
     pub fn along(self, angle: impl Into<Quantity>) -> Self {
         self.set("along", angle.into())
     }
@@ -291,10 +240,37 @@ impl<'d, S: SliderHandle> SliderBuilder<'d, S> {
         self.table().inner("stop").set("restitution", restitution.into());
         self
     }
+}
 
-    /// The handle.
-    pub fn id(self) -> S {
-        S::of(self.id, self.first)
+impl<'d> SliderBuilder<'d, kind::Discs> {
+    pub(super) fn of_discs(drawing: &'d mut Drawing, name: &str, between: [Frame; 2]) -> Self {
+        Self::of_kind(drawing, name, between)
+    }
+
+    /// Both centres in the drawing (m), the disc's first.
+    pub fn centres(self, places: [[impl Into<Quantity>; 2]; 2]) -> Self {
+        let [disc, other] = self.between;
+        let [first, second] = places.map(quantity::pair);
+        let ends = [(disc, first), (other, second)];
+        let ends = ends.map(|(frame, place)| quantity::text(&self.drawing.point(frame, &self.name, place)));
+        self.set("centres", quantity::list(ends))
+    }
+
+    /// Both radii (m), the disc's first.
+    pub fn radii(self, radii: [impl Into<Quantity>; 2]) -> Self {
+        self.set("radii", quantity::pair(radii))
+    }
+
+    /// The second body has a hole, and the disc is in it. Default: it is beside a disc.
+    pub fn inside(self) -> Self {
+        self.set("inside", Quantity::truth(true))
+    }
+}
+
+impl<K: MayLiftOff> SliderBuilder<'_, K> {
+    /// It does not touch in the state to be solved. Default: it does.
+    pub fn apart(self) -> Self {
+        self.set("closed", Quantity::truth(false))
     }
 }
 
@@ -359,7 +335,7 @@ macro_rules! contact_properties {
     };
 }
 
-impl<S: SliderHandle> SliderBuilder<'_, S> {
+impl<K: SliderKind> SliderBuilder<'_, K> {
     contact_properties!(self: Self);
 }
 
@@ -367,50 +343,38 @@ impl ContactBuilder<'_> {
     contact_properties!(self: &mut Self);
 }
 
-/// Defines the setters that a block and a guided slider have and a pin has not.
-macro_rules! lengths {
-    ($($slider:ty),*) => {$(
-        impl SliderBuilder<'_, $slider> {
-            /// Distance of the two contacts of a block; length of the pressed face of a guided slider (m).
-            pub fn length(self, length: impl Into<Quantity>) -> Self {
-                self.set("length", length.into())
-            }
-
-            /// Distance of the two rubbing faces (m). Default: 0.
-            pub fn height(self, height: impl Into<Quantity>) -> Self {
-                self.set("height", height.into())
-            }
-
-            /// The block surrounds the guide, as a sleeve its rod. Default: it is inside.
-            pub fn around(self) -> Self {
-                self.set("fit", quantity::text("around"))
-            }
-
-            /// The preload's friction acts on the centre line. Default: at the pressed face.
-            pub fn centred_preload(self) -> Self {
-                self.set("preload_line", quantity::text("centre"))
-            }
-        }
-    )*};
+impl<K: HasLength> SliderBuilder<'_, K> {
+    /// Distance of the two contacts of a block; length of the pressed face of a guided slider (m).
+    pub fn length(self, length: impl Into<Quantity>) -> Self {
+        self.set("length", length.into())
+    }
 }
 
-lengths!(BlockSlider, SingleSlider<true>);
+impl<K: BetweenFaces> SliderBuilder<'_, K> {
+    /// Distance of the two rubbing faces (m). Default: 0.
+    pub fn height(self, height: impl Into<Quantity>) -> Self {
+        self.set("height", height.into())
+    }
 
-impl SliderBuilder<'_, DiscOnFace> {
+    /// The block surrounds the guide, as a sleeve its rod. Default: it is inside.
+    pub fn around(self) -> Self {
+        self.set("fit", quantity::text("around"))
+    }
+
+    /// The preload's friction acts on the centre line. Default: at the pressed face.
+    pub fn centred_preload(self) -> Self {
+        self.set("preload_line", quantity::text("centre"))
+    }
+}
+
+impl SliderBuilder<'_, kind::Disc> {
     /// Radius of the disc (m).
     pub fn radius(self, radius: impl Into<Quantity>) -> Self {
         self.set("radius", radius.into())
     }
 }
 
-impl SliderBuilder<'_, BlockOnFace> {
-    /// Distance of both corners (m).
-    pub fn length(self, length: impl Into<Quantity>) -> Self {
-        self.set("length", length.into())
-    }
-}
-
-impl SliderBuilder<'_, BlockSlider> {
+impl<K: TwoContacts> SliderBuilder<'_, K> {
     /// Sets the properties in which the front contact differs.
     pub fn front(mut self, of: impl FnOnce(&mut ContactBuilder<'_>)) -> Self {
         of(&mut ContactBuilder(self.table().inner("front")));
@@ -422,7 +386,9 @@ impl SliderBuilder<'_, BlockSlider> {
         of(&mut ContactBuilder(self.table().inner("rear")));
         self
     }
+}
 
+impl SliderBuilder<'_, kind::Block> {
     /// A further contact, so far from the middle of the block in the direction of `along` (m): with it the block is
     /// redundantly guided. A name that was given before is that of the same contact.
     pub fn support(

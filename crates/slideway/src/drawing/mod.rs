@@ -35,8 +35,9 @@ mod load;
 mod quantity;
 
 pub use joint::{
-    BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, DiscOnFace, HingeBuilder, SingleSlider,
-    SliderBuilder, SliderHandle,
+    BetweenFaces, BlockOnFace, BlockSlider, ContactBuilder, CornerOnFace, DiscOnDisc, DiscOnFace,
+    GuidedSlider, HasLength, HingeBuilder, MayLiftOff, OnLine, OneContact, PinInSlot, Slider, SliderBuilder,
+    SliderKind, TwoContacts, kind,
 };
 pub use load::{DriveBuilder, ForceBuilder, LoadBuilder};
 pub use quantity::Quantity;
@@ -135,7 +136,7 @@ impl Drawing {
         name: &str,
         block: impl Into<Frame>,
         guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, BlockSlider> {
+    ) -> SliderBuilder<'_, kind::Block> {
         SliderBuilder::new(self, name, [block.into(), guide.into()])
     }
 
@@ -145,7 +146,7 @@ impl Drawing {
         name: &str,
         block: impl Into<Frame>,
         guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, SingleSlider<true>> {
+    ) -> SliderBuilder<'_, kind::Guided> {
         SliderBuilder::new(self, name, [block.into(), guide.into()])
     }
 
@@ -155,7 +156,7 @@ impl Drawing {
         name: &str,
         block: impl Into<Frame>,
         guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, CornerOnFace> {
+    ) -> SliderBuilder<'_, kind::Corner> {
         SliderBuilder::new(self, name, [block.into(), guide.into()])
     }
 
@@ -165,8 +166,18 @@ impl Drawing {
         name: &str,
         disc: impl Into<Frame>,
         guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, DiscOnFace> {
+    ) -> SliderBuilder<'_, kind::Disc> {
         SliderBuilder::new(self, name, [disc.into(), guide.into()])
+    }
+
+    /// A disc of the first body on a disc of the second, or in a hole of it, which it may leave.
+    pub fn disc_on_disc(
+        &mut self,
+        name: &str,
+        disc: impl Into<Frame>,
+        other: impl Into<Frame>,
+    ) -> SliderBuilder<'_, kind::Discs> {
+        SliderBuilder::of_discs(self, name, [disc.into(), other.into()])
     }
 
     /// A block on a straight face of the second body, which both of its corners may leave.
@@ -175,7 +186,7 @@ impl Drawing {
         name: &str,
         block: impl Into<Frame>,
         guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, BlockOnFace> {
+    ) -> SliderBuilder<'_, kind::OnFace> {
         SliderBuilder::new(self, name, [block.into(), guide.into()])
     }
 
@@ -185,7 +196,7 @@ impl Drawing {
         name: &str,
         pin: impl Into<Frame>,
         slot: impl Into<Frame>,
-    ) -> SliderBuilder<'_, SingleSlider<false>> {
+    ) -> SliderBuilder<'_, kind::Pin> {
         SliderBuilder::new(self, name, [pin.into(), slot.into()])
     }
 
@@ -428,7 +439,7 @@ impl BodyBuilder<'_> {
 
     /// A body without mass.
     pub fn massless(self) -> Self {
-        self.set("massless", Quantity::truth())
+        self.set("massless", Quantity::truth(true))
     }
 
     /// The handle.

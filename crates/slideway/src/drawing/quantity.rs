@@ -8,9 +8,9 @@ use serde::{Deserialize, Serialize};
 pub struct Quantity(String);
 
 impl Quantity {
-    /// `true`
-    pub(super) fn truth() -> Self {
-        Self("true".to_owned())
+    /// `true` or `false`
+    pub(super) fn truth(value: bool) -> Self {
+        Self(value.to_string())
     }
 
     /// As it stands in a file.

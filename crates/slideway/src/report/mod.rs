@@ -10,6 +10,7 @@ pub(crate) mod effort;
 mod end;
 mod finite;
 mod json;
+mod one_face;
 pub(crate) mod page;
 mod sharing;
 mod speed;
@@ -27,6 +28,7 @@ pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Ver
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
 pub(crate) use json::{Answered, indented};
+pub use one_face::{OneFaceHint, OneFaceReason};
 pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
@@ -174,6 +176,10 @@ pub struct SolveReport {
     /// it was not asked (margins are not, drives prescribe the motion).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub from_rest: Option<FromRest>,
+    /// The joints of two faces of which a solution, or the jam, needs the one that the thing itself may not have. Absent if
+    /// there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub one_face_hints: Vec<OneFaceHint>,
     /// How redundant guides share their load; absent if no constraint is redundant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sharing: Option<LoadSharing>,

@@ -144,6 +144,7 @@ impl Text<'_> {
         if let Some(remark) = report.remark() {
             self.line(&remark);
         }
+        report.one_face_hints.iter().for_each(|hint| self.line(&hint.words));
         if self.is_verbose() {
             self.search();
         }

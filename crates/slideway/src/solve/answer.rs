@@ -173,6 +173,7 @@ impl<'a> Answer<'a> {
             margins_missing: None,
             unique_at_least: None,
             from_rest: None,
+            one_face_hints: Vec::new(),
             sharing: None,
             uncertainty: None,
             influence: self.influence_summary(),

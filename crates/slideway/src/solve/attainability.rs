@@ -103,10 +103,6 @@ impl Answer<'_> {
         for (open, members) in groups {
             self.examine_closed(solutions, &open, &members)?;
         }
-        // What lies beside a solution is followed between faces that press on both sides.
-        for solution in solutions.iter_mut().filter(|_| may_open) {
-            solution.attainability.separates = None;
-        }
         Ok(())
     }
 
@@ -141,7 +137,13 @@ impl Answer<'_> {
             members.iter().copied().filter(|&index| !is_on_boundary(&solutions[index])).collect();
         let candidates: Vec<Candidate> =
             inside.iter().map(|&index| closed.candidate(&solutions[index])).collect();
-        for (&index, mut attainability) in inside.iter().zip(guides.attainability(&candidates)) {
+        // What lies beside a solution is followed between faces that press on both sides only.
+        let all = if self.mechanism.one_sided().next().is_some() {
+            candidates.iter().map(|candidate| guides.of(&candidate.states)).collect()
+        } else {
+            guides.attainability(&candidates)
+        };
+        for (&index, mut attainability) in inside.iter().zip(all) {
             attainability.separates = attainability.separates.map(|fates| {
                 fates.map(|fate| match fate {
                     Fate::Solution(number) => Fate::Solution(inside[number - 1] + 1),

@@ -32,6 +32,7 @@ mod locking;
 mod margins;
 mod mode_problem;
 mod no_sliding;
+mod one_face;
 mod parts;
 mod resting;
 mod sharing;
@@ -55,6 +56,7 @@ pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_change};
 pub(crate) use mode_problem::{ProblemData, Sliding, sides, sliding_signs};
 pub use mode_problem::{mode_problem, velocity_signs};
+pub(crate) use one_face::{NormalForces, Pressed, one_face_hints};
 pub(crate) use parts::Parts;
 pub(crate) use sharing::{check_assembly, load_sharing};
 pub(crate) use stages::Stages;
@@ -193,6 +195,8 @@ fn answered(
         if options.margins && !at_rest {
             from_rest::add(&mut report, model, progress);
         }
+        report.one_face_hints =
+            one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
         report.suit_units();
         return finite(report);
     }
@@ -227,6 +231,8 @@ fn answered(
         }
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
+    report.one_face_hints =
+        one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
     report.suit_units();
     finite(report)
 }

@@ -70,6 +70,7 @@ use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
 use crate::sharing::load_sharing;
+use crate::solve::{Pressed, one_face_hints};
 use directions::{Direction, directions, most_directions};
 use nalgebra::DMatrix;
 use rest::Over;
@@ -192,10 +193,15 @@ pub(crate) fn hold_within(
         load,
         at_rest: rest.found,
         releases: beginning.releases.found,
+        one_face_hints: Vec::new(),
         release_patterns: beginning.directions * rest_patterns,
         motions_without_inertia: beginning.motions_without_inertia,
         rest_patterns,
     };
+    let states = report.normal_forces();
+    let jams = report.verdict == HoldVerdict::Neither;
+    let state = (&setup.mechanism, &setup.configuration);
+    report.one_face_hints = one_face_hints(model, state, &Pressed { states: &states, jams });
     report.suit_units();
     finite(report)
 }

@@ -1,6 +1,7 @@
 //! What the analysis of standstill tells, as plain data.
 
-use crate::report::{CoordinateState, LoadSharing};
+use crate::report::{CoordinateState, LoadSharing, OneFaceHint};
+use crate::solve::NormalForces;
 use crate::units::Units;
 use serde::Serialize;
 
@@ -87,6 +88,10 @@ pub struct HoldReport {
     /// Every state in which it begins to move; empty also where motions without inertia kept them from being
     /// sought.
     pub releases: Vec<Release>,
+    /// The joints of two faces of which rest, or the start of the motion, needs the one that the thing itself may not have.
+    /// Absent if there are none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub one_face_hints: Vec<OneFaceHint>,
     /// Motions of the joints without inertia; if there are any, `releases` was not sought.
     pub motions_without_inertia: Vec<String>,
     /// Patterns of contact sides that were tried for rest.
@@ -103,6 +108,17 @@ impl HoldReport {
         let of_load = self.load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
         let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
         self.holds || self.undecided == of_load + of_wedging
+    }
+
+    /// The normal forces at rest, or where it begins to move.
+    pub(super) fn normal_forces(&self) -> Vec<NormalForces> {
+        let rest = self.at_rest.iter().map(|rest| &rest.reactions);
+        let states = rest.chain(self.releases.iter().map(|release| &release.reactions));
+        let forces = |contact: &ContactRange| {
+            let Range { least, greatest } = contact.normal_force;
+            [least.unwrap_or(f64::NEG_INFINITY), greatest.unwrap_or(f64::INFINITY)]
+        };
+        states.map(|reactions| reactions.contacts.iter().map(forces).collect()).collect()
     }
 
     /// Has its forces and moments shown in units in which they read well.

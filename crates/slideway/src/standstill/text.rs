@@ -102,6 +102,7 @@ impl Text<'_> {
     fn remarks(&mut self) {
         let report = self.report;
         without_inertia(report).iter().for_each(|line| self.line(line));
+        report.one_face_hints.iter().for_each(|hint| self.line(&hint.words));
         if !self.is_verbose() {
             return;
         }

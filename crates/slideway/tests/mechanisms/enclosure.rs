@@ -10,7 +10,7 @@ use proptest::test_runner::TestRunner;
 use slideway::configuration::Configuration;
 use slideway::enclosure::{EnclosedModeProblem, NotEnclosed, UncertainParameters, enclosure};
 use slideway::fault::Faults;
-use slideway::gallery::MODELS;
+use slideway::gallery::{GalleryModel, MODELS};
 use slideway::influence::Influence;
 use slideway::interval::Interval;
 use slideway::kinetics::KineticEquations;
@@ -18,7 +18,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::modes::ContactState::{self, Negative, Positive};
 use slideway::modes::certificate::{Decision, decide};
-use slideway::solve::{SolveOptions, solve_with};
+use slideway::solve::{SolveOptions, solve, solve_with};
 use std::cell::Cell;
 use std::fmt::Write;
 use std::ops::ControlFlow;
@@ -81,8 +81,14 @@ fn column<T: nalgebra::Scalar>(vector: &DVector<T>) -> DMatrix<T> {
 /// How far the rounded influence is outside of its enclosure.
 fn influence_outside(enclosed: &EnclosedModeProblem, rounded: &Influence) -> f64 {
     let found = &enclosed.outputs.influence;
+    // What may lift off has no second face.
+    let (mut bounds, mut negative) = (found.eta.negative.clone(), rounded.eta(1));
+    for (contact, _) in &found.one_sided {
+        bounds.column_mut(*contact).fill(Interval::ZERO);
+        negative.column_mut(*contact).fill(0.0);
+    }
     outside(&found.eta.positive, &rounded.eta(0))
-        .max(outside(&found.eta.negative, &rounded.eta(1)))
+        .max(outside(&bounds, &negative))
         .max(outside(&column(&found.frictionless), &column(&rounded.normal_forces())))
 }
 
@@ -96,15 +102,24 @@ fn holds(bounds: Interval, value: &RBig) -> bool {
     RBig::try_from(bounds.lower()).unwrap() <= *value && *value <= RBig::try_from(bounds.upper()).unwrap()
 }
 
+/// The models of the gallery whose friction has a direction.
+fn sliding() -> impl Iterator<Item = &'static GalleryModel> {
+    let slides = |entry: &&GalleryModel| {
+        solve(&Model::parse(entry.text).unwrap()).is_ok_and(|report| report.at_rest.is_empty())
+    };
+    MODELS.iter().filter(slides)
+}
+
 #[test]
 fn the_gallery_is_enclosed_to_many_digits() {
-    for entry in MODELS.iter().filter(|entry| entry.name != "bracket-on-pole") {
+    for entry in sliding() {
         let model = Model::parse(entry.text).unwrap();
         let (found, rounded) = (enclosed(&model), influence(&model).unwrap());
         assert!(influence_outside(&found, &rounded) <= 1e-13, "{}", entry.name);
         // The tubes of the boom overlap by little beside their length, so that reactions are large
-        // differences.
-        let narrow = if entry.name == "telescopic-boom" { 1e-10 } else { WIDTH };
+        // differences; the place of the peg is one, 0.5 mm of 20 mm, divided by the sine of 0.5 degrees.
+        let is_wide = ["telescopic-boom", "peg-in-hole"].contains(&entry.name);
+        let narrow = if is_wide { 1e-10 } else { WIDTH };
         let influence = &found.outputs.influence;
         let loads = column(&influence.frictionless);
         for bounds in [&influence.eta.positive, &influence.eta.negative, &loads] {
@@ -232,7 +247,7 @@ fn what_cannot_be_enclosed_is_told() {
 /// bounds.
 #[test]
 fn changed_models_of_the_gallery_lie_within_the_bounds() {
-    for entry in MODELS.iter().filter(|entry| entry.name != "bracket-on-pole") {
+    for entry in sliding() {
         let model = Model::parse(entry.text).unwrap();
         let values = model.parameter_values(&model.constants().unwrap());
         for (parameter, value) in model.parameters.iter().zip(values) {

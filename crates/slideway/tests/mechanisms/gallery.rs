@@ -5,6 +5,7 @@ use crate::answers::{
     report_with,
 };
 use rstest::rstest;
+use slideway::check;
 use slideway::fault::FaultKind;
 use slideway::gallery::{self, MODELS};
 use slideway::mechanism::Mechanism;
@@ -20,28 +21,40 @@ fn every_model_is_sound_and_says_what_it_shows() {
         assert!(entry.text.starts_with("# "), "{}", entry.name);
         assert!(!entry.summary().is_empty() && !entry.shows().is_empty(), "{}", entry.name);
         let model = Model::parse(entry.text).unwrap_or_else(|faults| panic!("{}: {faults}", entry.name));
-        if entry.name == "bracket-on-pole" {
+        let ready = check(&model).unwrap();
+        assert!(ready.is_ready_for("hold") || ready.is_ready_for("solve"), "{}", entry.name);
+        if !ready.is_ready_for("solve") {
             continue;
         }
         let report = solve(&model).unwrap_or_else(|faults| panic!("{}: {faults}", entry.name));
-        assert!(report.complete == Proof::Proven, "{}", entry.name);
-        assert!(!report.solutions.is_empty(), "{}", entry.name);
+        // How contacts at rest start is computed, and the forces of the ladder are open.
+        assert!(report.complete == Proof::Proven || !report.at_rest.is_empty(), "{}", entry.name);
+        assert!(report.solutions.len() + report.continua.len() > 0, "{}", entry.name);
         assert!(report.solutions.iter().all(|solution| solution.residual < 1e-12), "{}", entry.name);
     }
 }
 
-/// Motions of redundant guides are refused, and the joints named.
+/// Motions of redundant guides, of contacts that may lift off and of what has no mass are refused, the joints named, and no others.
 #[test]
-fn redundant_models_are_refused_where_motion_is_asked_for() {
+fn motions_that_are_not_computed_are_refused() {
     for entry in MODELS {
         let model = Model::parse(entry.text).unwrap();
-        assert_eq!(entry.redundant, !Mechanism::new(&model).unwrap().excess.is_empty(), "{}", entry.name);
-        if !entry.redundant {
+        let mechanism = Mechanism::new(&model).unwrap();
+        let lifts_off = mechanism.contacts.iter().any(|contact| contact.opens);
+        let motion = simulate(&model, &SimulateOptions::new(1e-3));
+        assert_eq!(motion.is_ok(), check(&model).unwrap().is_ready_for("simulate"), "{}", entry.name);
+        let Err(faults) = motion else {
+            assert!(!lifts_off && mechanism.excess.is_empty(), "{}", entry.name);
             continue;
-        }
-        let faults = simulate(&model, &SimulateOptions::new(1.0)).unwrap_err();
+        };
         let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
-        assert!(matches!(kinds.as_slice(), [FaultKind::SharedLoad { .. }]), "{}: {faults}", entry.name);
+        let is_named = match kinds.as_slice() {
+            [FaultKind::SharedLoad { .. }] => !mechanism.excess.is_empty(),
+            [FaultKind::OneSided { .. }] => lifts_off,
+            [FaultKind::MotionWithoutInertia { .. }] => entry.name == "bracket-on-pole",
+            _ => false,
+        };
+        assert!(is_named, "{}: {faults}", entry.name);
     }
 }
 
@@ -240,6 +253,22 @@ fn the_booms_patterns_grow_as_four_to_the_stages() {
     assert!(only(&report).joints.iter().all(|joint| joint.mode.starts_with("touching at ")));
     let retracting = report_with(&model("telescopic-boom"), &parameters(&[("mu", "0.4"), ("v", "-0.1 m/s")]));
     assert_eq!(retracting.complete, Proof::Proven);
+}
+
+/// `M = mu R W/((1 + mu^2) cos(beta))`; from `mu = tan(beta)` on the right flank opens, and the left one carries
+/// `W cos(beta)`: derived in the book.
+#[test]
+fn a_shaft_rubs_in_its_v_or_climbs_out() {
+    let weight = 3.0 * 9.81;
+    for (beta, mu) in [(60.0_f64, 0.2_f64), (60.0, 1.7), (30.0, 0.57), (60.0, 1.8), (30.0, 0.6)] {
+        let report = report("shaft-in-v-block", &[("beta", &format!("{beta} deg")), ("mu", &mu.to_string())]);
+        let solution = only(&report);
+        let (sin, cos) = beta.to_radians().sin_cos();
+        let climbs = mu > sin / cos;
+        let presses = if climbs { weight * cos } else { weight / ((1.0 + mu * mu) * cos) };
+        assert!((solution.drives[0].effort - mu * 0.02 * presses).abs() < 1e-12, "{beta} {mu}");
+        assert_eq!(contact(solution, "right").normal_force == 0.0, climbs, "{beta} {mu}");
+    }
 }
 
 #[test]

@@ -30,6 +30,7 @@ mod limits_properties;
 mod loads;
 mod margins;
 mod no_sliding;
+mod one_face;
 mod one_sided;
 mod one_sided_jams;
 mod one_sided_rest;

@@ -18,11 +18,12 @@ use slideway::map::{MapOptions, map};
 use slideway::model::{Model, Settings};
 use slideway::motion::{SimulateOptions, simulate};
 use slideway::report::{Proof, Solution, SolveReport, Status, Verdict};
+use slideway::standstill::{HoldOptions, hold};
 use slideway::sweep::{Rows, Sweep, SweepOptions};
 use std::ops::ControlFlow;
 
 pub(crate) const REFERENCE: &str = include_str!("../../../../reference/one-sided.toml");
-const ROD: &str = include_str!("../../../../docs/src/examples/rod-on-floor.toml");
+const ROD: &str = include_str!("../../models/rod-on-floor.toml");
 pub(crate) const GRAVITY: f64 = 9.81;
 
 #[derive(Deserialize)]
@@ -395,7 +396,7 @@ fn the_peg_locks_at_the_friction_of_the_reference() {
 /// The latch of the reference locks where the force on its nose points to its pivot: `mu = (P x n)/(P x u) = 0.5472587141`.
 #[test]
 fn the_latch_locks_at_the_friction_of_the_closed_form() {
-    let model = Model::parse(include_str!("../../../../docs/src/examples/latch-with-pawl.toml")).unwrap();
+    let model = Model::parse(include_str!("../../models/latch-with-pawl.toml")).unwrap();
     let report = limits(&model, &LimitsOptions::new("mu=0..1".parse().unwrap())).unwrap();
     let (sin, cos) = 50_f64.to_radians().sin_cos();
     let critical = (0.1 * cos - 0.02 * sin) / (0.1 * sin + 0.02 * cos);
@@ -437,6 +438,32 @@ fn three_corners_on_a_line_are_refused() {
     let kind = fault(&BOX.replace("[coordinates.x]", third));
     let FaultKind::OneSidedInExcess { contacts } = kind else { panic!("{kind}") };
     assert_eq!(contacts, ["base.front", "base.rear", "third"]);
+}
+
+/// Both pairs of opposite corners of a peg in its play cannot touch together: given together they could carry each other, so that
+/// no list of states is proven, and at rest they are wedged and hold anything.
+#[test]
+fn corners_that_cannot_touch_together_are_refused_and_wedged() {
+    let corner = |name: &str, at: &str, along: &str| {
+        format!(
+            "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"peg\"\nat = \"{at}\"\nalong = \"{along}\"\nmu = 0.3\n"
+        )
+    };
+    let text = format!(
+        "[points]\nC = [0, 0]\nA = [-1, -2]\nB = [1, -2]\nD = [-1, 2]\nE = [1, 2]\n[bodies.peg]\npoints = [\"C\", \"A\", \"B\", \"D\", \"E\"]\n\
+         mass = 1\nmoment_of_inertia = 1\ncentre_of_mass = \"C\"\n[loads.push]\ntype = \"force\"\nat = \"peg.C\"\ncomponents = [0, -1e6]\n\
+         [coordinates.depth]\ny = \"peg.C\"\nrate = -1\n{}{}{}{}",
+        corner("left_tip", "A", "-90 deg"),
+        corner("right_tip", "B", "90 deg"),
+        corner("left_mouth", "D", "-90 deg"),
+        corner("right_mouth", "E", "90 deg"),
+    );
+    let kind = fault(&text);
+    let FaultKind::OneSidedInExcess { contacts } = kind else { panic!("{kind}") };
+    assert_eq!(contacts, ["left_tip", "right_tip", "left_mouth", "right_mouth"]);
+    let held = hold(&Model::parse(&text).unwrap(), &HoldOptions::default()).unwrap();
+    assert!(held.holds, "{:?}", held.verdict);
+    assert_eq!(held.at_rest.unwrap().wedging, ["left_tip", "right_tip", "left_mouth", "right_mouth"]);
 }
 
 #[test]
@@ -510,6 +537,25 @@ fn a_drawing_in_code_has_them() {
     let report = report_on(&drawing.to_toml());
     assert_eq!(foot.contact().index(), 0);
     assert_close(contact(only(&report), "foot").friction_force, 0.3 * GRAVITY, 1.0, 1e-12);
+    // On the top of a cylinder as on a plane, at the first instant: a hole, and beside it.
+    for (centre, radius, inside) in [(-0.1, 0.1, false), (0.5, 0.5, true)] {
+        let mut drawing = Drawing::new();
+        drawing.gravity(GRAVITY);
+        let body = drawing.body("disc").mass(1.0).inertia(0.02).centre([0.0, 0.2]).id();
+        let foot = drawing.disc_on_disc("foot", body, Frame::Ground).centres([[0.0, 0.2], [0.0, centre]]);
+        let foot = foot.radii([0.2, radius]).mu(0.3);
+        let foot = if inside { foot.inside().id() } else { foot.id() };
+        drawing.rotation("turn", body).rate(1.0);
+        let turned = drawing.to_toml() + "[coordinates.x]\nx = \"disc.foot\"\n";
+        let report = report_on(&turned);
+        assert_eq!(foot.contact().index(), 0);
+        assert_close(contact(only(&report), "foot").friction_force.abs(), 0.3 * GRAVITY, 1.0, 1e-12);
+    }
+    // What is apart leaves its freedom.
+    let mut drawing = Drawing::new();
+    let body = drawing.body("disc").mass(1.0).inertia(0.02).centre([0.0, 0.3]).id();
+    drawing.disc_on_face("foot", body, Frame::Ground).at([0.0, 0.2]).radius(0.1).mu(0.3).apart();
+    assert!(drawing.to_toml().contains("closed = false"));
 }
 
 /// Without friction, too, what would have to pull lifts off: a corner beneath a body that is drawn upwards needs no more than to lift it.

@@ -11,8 +11,8 @@ use slideway::standstill::{
 };
 
 const REFERENCE: &str = include_str!("../../../../reference/one-sided-rest.toml");
-const BOX: &str = include_str!("../../../../docs/src/examples/box-on-incline.toml");
-const LADDER: &str = include_str!("../../../../docs/src/examples/ladder.toml");
+const BOX: &str = include_str!("../../models/box-on-incline.toml");
+const LADDER: &str = include_str!("../../models/ladder.toml");
 const GRAVITY: f64 = 9.81;
 
 #[derive(Deserialize)]

@@ -19,8 +19,8 @@ use slideway::solve::solve;
 use slideway::{HoldOptions, hold};
 
 const REFERENCE: &str = include_str!("../../../../reference/one-sided-rest.toml");
-const BOX: &str = include_str!("../../../../docs/src/examples/box-on-incline.toml");
-const LADDER: &str = include_str!("../../../../docs/src/examples/ladder.toml");
+const BOX: &str = include_str!("../../models/box-on-incline.toml");
+const LADDER: &str = include_str!("../../models/ladder.toml");
 
 #[derive(Deserialize)]
 struct Reference {

@@ -146,7 +146,7 @@ fn limits_find_where_a_box_begins_to_tip(
     let (sin, cos) = degrees.to_radians().sin_cos();
     let k = 1.5 * (h * sin - b * cos) / (b * b + h * h);
     assert_close((sin - k * h / 2.0) / (cos + k * b / 2.0), second, 1.0, 1e-9);
-    let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
+    let text = include_str!("../../models/box-on-incline.toml");
     let model = Model::parse(&text.replace("rate = \"-1 m/s\"", "")).unwrap();
     let list =
         [("b", b), ("h", h), ("slope", degrees.to_radians())].map(|(name, value)| (name, value.to_string()));
@@ -199,7 +199,7 @@ fn sweeps_and_maps_know_what_is_at_rest() {
 /// A drive that pushes a box along its incline at half its height: it tips from `|F - m g sin| = m g cos b/h` on, before it slides.
 #[test]
 fn a_drive_at_rest_tells_which_efforts_hold() {
-    let text = include_str!("../../../../docs/src/examples/box-on-incline.toml");
+    let text = include_str!("../../models/box-on-incline.toml");
     let text = text.replace("rate = \"-1 m/s\"", "");
     let push = "[drives.push]\ncoordinate = \"x\"\nforce = { at = \"box.C\", direction = \"slope\" }\n";
     let report = drive(&Model::parse(&(text + push)).unwrap(), &DriveOptions::default()).unwrap();
@@ -230,7 +230,7 @@ fn what_cannot_stick_is_refused() {
     let apart = wheel("sticks = true\nclosed = false", 0.5);
     assert!(matches!(fault(&apart), FaultKind::Both { first: "sticks = true", .. }), "{:?}", fault(&apart));
     // Both ends of a ladder: four rows, three motions.
-    let ladder = include_str!("../../../../docs/src/examples/ladder.toml");
+    let ladder = include_str!("../../models/ladder.toml");
     let ladder = ladder.replace("type = \"corner_on_face\"", "type = \"corner_on_face\"\nsticks = true");
     assert!(matches!(fault(&ladder), FaultKind::Redundant { .. }), "{:?}", fault(&ladder));
     assert_eq!(report_on(&wheel("sticks = true", 0.5)).status, Status::One);

@@ -9,9 +9,9 @@ use slideway::limits::{LimitsOptions, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::{Persistence, Proof, Status, Uncertainty, Verdict};
 
-const PEG: &str = include_str!("../../../../docs/src/examples/peg-in-hole.toml");
-const CAM: &str = include_str!("../../../../docs/src/examples/cam-and-spring.toml");
-const NIP: &str = include_str!("../../../../docs/src/examples/nip-of-rolls.toml");
+const PEG: &str = include_str!("../../models/peg-in-hole.toml");
+const CAM: &str = include_str!("../../models/cam-and-spring.toml");
+const NIP: &str = include_str!("../../models/nip-of-rolls.toml");
 
 /// The numbers of case `peg_two_points` of `reference/one-sided.toml`.
 #[test]
