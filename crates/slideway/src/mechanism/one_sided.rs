@@ -50,6 +50,43 @@ impl<T> Mechanism<T> {
 const ON_FACE: f64 = 1e-9;
 
 impl Mechanism {
+    /// The mechanism with the contacts that are apart, too, behind all others: what moves may touch with any of them.
+    pub(crate) fn with_all_contacts(&self) -> Self {
+        let mut whole = self.clone();
+        for joint in &mut whole.joints {
+            let JointKind::Slider(slider) = &mut joint.kind else { continue };
+            for contact in std::mem::take(&mut slider.apart) {
+                slider.contacts.push(ContactId(whole.contacts.len()));
+                whole.contacts.push(contact);
+            }
+            // The front one first.
+            let offset = |contact: &ContactId| whole.contacts[contact.index()].offset;
+            slider.contacts.sort_by(|one, other| offset(other).total_cmp(&offset(one)));
+        }
+        whole
+    }
+
+    /// The mechanism while these contacts are open, in their order: they are apart from their faces, and a block that is left
+    /// with one corner touches with that.
+    pub(crate) fn touching(&self, open: &[usize]) -> Self {
+        let mut left = self.without_contacts(open);
+        for &k in open {
+            let contact = &self.contacts[k];
+            if let JointKind::Slider(slider) = &mut left.joints[contact.joint.index()].kind {
+                slider.apart.push(contact.clone());
+            }
+        }
+        for joint in &mut left.joints {
+            let JointKind::Slider(slider) = &mut joint.kind else { continue };
+            let ([corner], false) = (&slider.contacts[..], slider.apart.is_empty()) else { continue };
+            let moved = std::mem::replace(&mut left.contacts[corner.index()].offset, 0.0);
+            slider.apart.iter_mut().for_each(|contact| contact.offset -= moved);
+            slider.at += slider.tangent * moved;
+            slider.kind = SliderKind::Pin;
+        }
+        left
+    }
+
     /// Refuses blocks that are not on their faces in the drawing, given how far each is off.
     ///
     /// # Errors

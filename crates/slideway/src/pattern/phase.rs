@@ -33,6 +33,16 @@ impl Phase {
         contacts.map(sign).chain(self.hinges.iter().map(|hinge| hinge.state.symbol())).collect()
     }
 
+    /// Whether a contact that may lift off is open.
+    pub(crate) fn is_open(&self, mechanism: &Mechanism, contact: usize) -> bool {
+        mechanism.contacts[contact].opens && self.contacts[contact] == ContactPhase::PreloadGap
+    }
+
+    /// The contacts that may lift off and are open, by their numbers.
+    pub(crate) fn open(&self, mechanism: &Mechanism) -> Vec<usize> {
+        (0..self.contacts.len()).filter(|&k| self.is_open(mechanism, k)).collect()
+    }
+
     /// Whether every joint, contact and hinge does what it does in another phase.
     pub(crate) fn has_states_of(&self, other: &Self) -> bool {
         self.contacts == other.contacts && self.joints_and_hinges().eq(other.joints_and_hinges())

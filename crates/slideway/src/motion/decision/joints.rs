@@ -1,8 +1,9 @@
 //! The sliding joints of a mechanism at an instant, and its hinges with friction.
 
+use super::impulse::AT_REST;
 use super::scale::{Scale, Share};
 use super::units::{Units, greatest, units};
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Velocity};
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
@@ -26,6 +27,9 @@ pub(super) struct SlidingJoint {
     pub(super) couple: Option<GuidedCouple>,
     /// Its sliding acceleration.
     pub(super) row: SlidingRow,
+    /// Of its contacts that are apart from their face those that touch it and do not leave it yet, by their numbers among
+    /// these: the accelerations of their gaps.
+    pub(super) gaps: Vec<(usize, SlidingRow)>,
     /// Its sliding velocity (m/s).
     pub(super) velocity: f64,
     /// Whether friction or an end stop could hold it.
@@ -125,6 +129,7 @@ pub(super) fn sliding_joints(
             contacts,
             couple: place.map(|unknown| GuidedCouple { unknown, half_length: slider.greatest_couple(1.0) }),
             row: SlidingRow::new(mechanism, configuration, slider),
+            gaps: Vec::new(),
             velocity: first.unwrap_or(0.0),
             has_friction: has_friction || stop != 0.0,
             stop,
@@ -132,6 +137,43 @@ pub(super) fn sliding_joints(
         })
     };
     mechanism.joints.iter().enumerate().filter_map(one).collect()
+}
+
+/// Of each sliding joint the contacts that are apart from their face in the mechanism, and touch it without leaving it, by their
+/// numbers among these.
+pub(super) fn touching_gaps(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vec<usize>> {
+    let little = little_rate(mechanism, configuration);
+    let touches = |[gap, rate]: [f64; 2]| gap <= TOUCHES * mechanism.size && rate <= little;
+    let of_joint = |joint: &crate::mechanism::Joint| match &joint.kind {
+        JointKind::Slider(slider) => {
+            let gaps = configuration.gaps(mechanism, slider).enumerate();
+            Some(gaps.filter(|(_, gap)| touches(*gap)).map(|(number, _)| number).collect())
+        }
+        JointKind::Hinge(_) => None,
+    };
+    mechanism.joints.iter().filter_map(of_joint).collect()
+}
+
+/// The rate of a gap beside which it counts as zero (m/s): rounding of the greatest velocity.
+pub(super) fn little_rate(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
+    let speed = |v: &Velocity| v.linear.amax().max(v.angular.abs() * mechanism.size);
+    AT_REST * configuration.velocities.iter().map(speed).fold(0.0, f64::max)
+}
+
+/// Puts the accelerations of these gaps into the sliding joints.
+pub(super) fn put_gaps(
+    joints: &mut [SlidingJoint],
+    touching: &[Vec<usize>],
+    (mechanism, configuration): (&Mechanism, &Configuration),
+) {
+    for (joint, numbers) in joints.iter_mut().zip(touching) {
+        let Some(slider) = mechanism.slider(joint.id) else { continue };
+        let row = |number: &usize| {
+            let contact = &slider.apart[*number];
+            (*number, SlidingRow::of_gap(mechanism, configuration, (slider, contact)))
+        };
+        joint.gaps = numbers.iter().map(row).collect();
+    }
 }
 
 /// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.

@@ -198,6 +198,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 (!stops).then_some(End::TravelLimit(*joint))
             }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
+            Cause::Touches(contact) => Some(End::Touches(*contact)),
             Cause::ReactionLimit(contact) => Some(End::ReactionLimit(*contact)),
             Cause::User(index, _) => self.options.events[*index].ends.then_some(End::UserEvent(*index)),
             _ => None,
@@ -378,10 +379,7 @@ impl<'a, 'm> Run<'a, 'm> {
     /// The velocities of all sliding joints, then of the hinges with friction (m/s or rad/s).
     fn velocities(&self) -> impl Iterator<Item = f64> {
         let equations = &self.smooth.equations;
-        let sliders = equations.sliders.iter().map(|joint| {
-            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
-            equations.contacts[slider.contacts[0].index()].sliding_velocity
-        });
+        let sliders = (0..equations.sliders.len()).map(|joint| equations.sliding_velocity(joint));
         sliders.chain((0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge)))
     }
 
@@ -454,7 +452,11 @@ fn without_ended(
     previous: Option<&Phase>,
 ) {
     let Some(previous) = previous else { return };
-    let stuck = |phase: &Phase| phase.joints_and_hinges().eq(previous.joints_and_hinges());
+    let mechanism = equations.mechanism;
+    let stuck = |phase: &Phase| {
+        let open = |phase: &Phase| phase.open(mechanism);
+        phase.joints_and_hinges().eq(previous.joints_and_hinges()) && open(phase) == open(previous)
+    };
     if causes.contains(&Cause::Slips) {
         successors.retain(|successor| !stuck(&successor.phase));
     }

@@ -103,6 +103,8 @@ pub enum End {
     TravelLimit(JointId),
     /// A block has left its guide.
     OverlapVanished(JointId),
+    /// A contact that was open reaches its face.
+    Touches(ContactId),
     /// The normal force of a contact has reached the limit that was given.
     ReactionLimit(ContactId),
     /// A function of the user has passed zero; its number.

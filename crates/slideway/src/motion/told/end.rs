@@ -22,6 +22,10 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
         End::OverlapVanished(id) => {
             format!("It ends at {time}: {} leaves its guide.", moving(mechanism, *id))
         }
+        End::Touches(id) => format!(
+            "It ends at {time}: {} reaches its face, and an impact follows, which is not computed.",
+            mechanism.contacts[id.index()].name
+        ),
         End::ReactionLimit(id) => format!(
             "It ends at {time}: the normal force of {} reaches its limit, which counts as a jam.",
             mechanism.contacts[id.index()].name

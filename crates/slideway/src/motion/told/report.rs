@@ -155,6 +155,8 @@ kinds! {
         TravelLimit,
         /// A block leaves its guide.
         OverlapVanished,
+        /// A contact that was open reaches its face.
+        Touches,
         /// A normal force reaches its limit.
         ReactionLimit,
         /// An event of the model that stops the motion.

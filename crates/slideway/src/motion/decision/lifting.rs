@@ -1,0 +1,237 @@
+//! Contacts that may lift off, at an instant: each set of those that touch is tried as open, with the mechanism as it
+//! touches then.
+//!
+//! ```text
+//! closed   N_k >= 0, acceleration of the gap = 0         apart   N_k = 0, acceleration of the gap >= 0
+//! ```
+//!
+//! What is apart has no rows, so that all other states are those of a mechanism without it; that its gap does not close is one
+//! more inequality of that mechanism. Where a normal force has just vanished, both it and the acceleration of the gap are
+//! zero, and how these go on decides.
+
+use super::elastic::verdict_on;
+use super::joints::{TOUCHES, little_rate};
+use super::parts::SAME;
+use super::rules::{Continuation, Continuations, EventInstant};
+use super::sticking::phase_state;
+use super::successors::{Successor, Successors, combinations};
+use super::{MOST_STATES, PhaseBound, Standing};
+use crate::configuration::Configuration;
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::ContactId;
+use crate::mechanism::{JointKind, Mechanism};
+use crate::pattern::{ContactPhase, JointPhase, Phase};
+use crate::report::Verdict;
+use nalgebra::DVector;
+use std::cmp::Reverse;
+
+/// A mechanism of which some contacts that may lift off are open.
+pub(super) struct Touching<'m> {
+    whole: &'m Mechanism,
+    open: Vec<usize>,
+    /// The contacts that are left, by their numbers in the whole.
+    kept: Vec<usize>,
+    /// The mechanism as it touches.
+    pub(super) mechanism: Mechanism,
+}
+
+impl<'m> Touching<'m> {
+    /// The mechanism while these contacts are open.
+    pub(super) fn new(whole: &'m Mechanism, open: Vec<usize>) -> Self {
+        let kept = (0..whole.contacts.len()).filter(|k| !open.contains(k)).collect();
+        Self { mechanism: whole.touching(&open), whole, open, kept }
+    }
+
+    /// The mechanism in a phase.
+    pub(super) fn in_phase(whole: &'m Mechanism, phase: &Phase) -> Self {
+        Self::new(whole, phase.open(whole))
+    }
+
+    /// What a phase of the whole mechanism says of it.
+    pub(super) fn part_of(&self, phase: &Phase) -> Phase {
+        Phase { contacts: self.kept.iter().map(|&k| phase.contacts[k]).collect(), ..phase.clone() }
+    }
+
+    /// A list of values, one for each contact that is left, for all contacts.
+    pub(super) fn of_all<T: Copy>(&self, values: &[T], open: T) -> Vec<T> {
+        let mut all = vec![open; self.whole.contacts.len()];
+        self.kept.iter().zip(values).for_each(|(&k, value)| all[k] = *value);
+        all
+    }
+
+    /// Which of the sliding joints do not touch at all.
+    fn is_apart(&self) -> Vec<bool> {
+        let sliders = self.mechanism.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => Some(slider.contacts.is_empty()),
+            JointKind::Hinge(_) => None,
+        });
+        sliders.collect()
+    }
+
+    /// A phase of it as one of the whole mechanism.
+    fn whole(&self, phase: &Phase) -> Phase {
+        let mut whole =
+            Phase { contacts: self.of_all(&phase.contacts, ContactPhase::PreloadGap), ..phase.clone() };
+        for (joint, apart) in whole.joints.iter_mut().zip(self.is_apart()) {
+            if apart {
+                *joint = JointPhase::Sliding(1.0);
+            }
+        }
+        whole
+    }
+
+    /// The phases of it in which the mechanism can go on.
+    fn successors(&self, event: &EventInstant<'_>) -> Result<Successors, Faults> {
+        let apart = self.is_apart();
+        let signs: Vec<f64> =
+            event.signs.iter().zip(apart).map(|(sign, apart)| if apart { 1.0 } else { *sign }).collect();
+        let joint_rests = |k: usize| {
+            let joint = self.mechanism.contacts[k].joint;
+            let mut sliders = crate::pattern::phase::sliding_joints(&self.mechanism).into_iter();
+            sliders.position(|slider| slider == joint).is_some_and(|index| signs[index] == 0.0)
+        };
+        self.mechanism.check_no_disc_at_rest(joint_rests)?;
+        let previous = event.previous.filter(|phase| phase.open(self.whole) == self.open);
+        let previous = previous.map(|phase| self.part_of(phase));
+        let place = |contact: &ContactId| self.kept.iter().position(|&k| k == contact.index()).map(ContactId);
+        let zero: Vec<ContactId> = match &previous {
+            Some(_) => event.zero.iter().filter_map(place).collect(),
+            None => Vec::new(),
+        };
+        let event = EventInstant {
+            mechanism: &self.mechanism,
+            signs: &signs,
+            zero: &zero,
+            previous: previous.as_ref(),
+            ..*event
+        };
+        super::successors::continuations(&event)
+    }
+}
+
+/// A phase that can follow, with what its place in the order depends on.
+struct Candidate {
+    continuation: Continuation,
+    /// Joints that stick on, and joints that stick.
+    sticking: [usize; 2],
+    /// Whether only rounding keeps what has vanished from going on to fall.
+    is_over: bool,
+    is_present: bool,
+    open: usize,
+}
+
+/// The phases in which a mechanism can go on some of whose contacts may lift off, in the order of
+/// [`successors`](super::successors()).
+///
+/// # Errors
+/// As [`successors`](super::successors()), for each set of contacts that touch.
+pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, Faults> {
+    let mechanism = event.mechanism;
+    let all = sets_of_open(event)?;
+    let before = accelerations_before(event)?;
+    let mut found = Continuations::default();
+    let mut candidates: Vec<(Candidate, Touching<'_>, Phase)> = Vec::new();
+    for open in all {
+        if event.work.is_over() {
+            break;
+        }
+        let count = open.len();
+        let successors = Touching::new(mechanism, open.clone()).successors(event)?;
+        found.left_out |= !successors.complete || !successors.unsolved.is_empty();
+        for successor in successors.list {
+            let touching = Touching::new(mechanism, open.clone());
+            let candidate = candidate(event, (&touching, &successor, count), before.as_ref());
+            candidates.push((candidate, touching, successor.phase));
+        }
+    }
+    if candidates.len() > 1 {
+        for (candidate, touching, phase) in &mut candidates {
+            candidate.continuation.verdict = verdict_on(&touching.mechanism, event.configuration, phase);
+        }
+    }
+    candidates.sort_by_key(|(candidate, ..)| {
+        let Candidate { continuation, sticking, is_over, is_present, open } = candidate;
+        let is_threshold = continuation.verdict == Verdict::Unattainable;
+        (sticking.map(Reverse), *is_over, is_threshold, !is_present, !continuation.continues, *open)
+    });
+    found.list = candidates.into_iter().map(|(candidate, ..)| candidate.continuation).collect();
+    Ok(found)
+}
+
+/// The sets of contacts that may be open at an instant: what is apart, with some of those that touch.
+///
+/// # Errors
+/// So many touch that not all sets are tried.
+fn sets_of_open(event: &EventInstant<'_>) -> Result<Vec<Vec<usize>>, Faults> {
+    let EventInstant { mechanism, configuration, previous, .. } = *event;
+    let little = little_rate(mechanism, configuration);
+    let is_apart = |contact: ContactId| {
+        let [gap, rate] = configuration.gap(mechanism, contact);
+        let was_closed = previous.is_some_and(|phase| !phase.is_open(mechanism, contact.index()));
+        !was_closed && (gap > TOUCHES * mechanism.size || rate > little)
+    };
+    let options: Vec<Vec<Option<usize>>> = mechanism
+        .one_sided()
+        .map(|contact| match is_apart(contact) {
+            true => vec![Some(contact.index())],
+            false => vec![None, Some(contact.index())],
+        })
+        .collect();
+    let states = options.iter().fold(1_u64, |states, options| states.saturating_mul(options.len() as u64));
+    if states > MOST_STATES {
+        return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
+    }
+    Ok(combinations(&options).into_iter().map(|open| open.into_iter().flatten().collect()).collect())
+}
+
+/// The accelerations of all bodies in the phase that has ended, at its end.
+fn accelerations_before(event: &EventInstant<'_>) -> Result<Option<DVector<f64>>, Faults> {
+    let EventInstant { mechanism, configuration, previous, .. } = *event;
+    let Some(previous) = previous else { return Ok(None) };
+    let touching = Touching::in_phase(mechanism, previous);
+    let state = phase_state(&touching.mechanism, configuration, &touching.part_of(previous))?;
+    Ok(state.map(|state| of_bodies(mechanism, &state.unknowns)))
+}
+
+fn of_bodies(mechanism: &Mechanism, unknowns: &DVector<f64>) -> DVector<f64> {
+    unknowns.rows(0, 3 * mechanism.bodies.len()).into_owned()
+}
+
+fn candidate(
+    event: &EventInstant<'_>,
+    (touching, successor, open): (&Touching<'_>, &Successor, usize),
+    before: Option<&DVector<f64>>,
+) -> Candidate {
+    let phase = touching.whole(&successor.phase);
+    let sticks = |phase: &Phase, number: usize| phase.joints[number] == JointPhase::Sticking;
+    let stuck = || (0..phase.joints.len()).filter(|&number| sticks(&phase, number));
+    let stayed = stuck().filter(|&number| event.previous.is_some_and(|before| sticks(before, number)));
+    let now = of_bodies(event.mechanism, &successor.state.unknowns);
+    let continues = before.is_some_and(|before| (&now - before).amax() <= SAME * before.amax());
+    let undecided = matches!(&successor.standing, Standing::Undecided(bounds)
+        if bounds.iter().any(|bound| matches!(bound, PhaseBound::NormalForce(_))));
+    Candidate {
+        sticking: [stayed.count(), stuck().count()],
+        is_over: successor.is_present && undecided && !event.zero.is_empty(),
+        is_present: successor.is_present,
+        open,
+        continuation: Continuation { phase, verdict: successor.attainability.verdict, continues },
+    }
+}
+
+/// The normal force of each contact in a phase in which joints stick (N), as
+/// [`determined_forces`](super::determined_forces) has it; zero where it is open.
+///
+/// # Errors
+/// As [`determined_forces`](super::determined_forces).
+pub(super) fn normal_forces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<Vec<Option<f64>>, Faults> {
+    let touching = Touching::in_phase(mechanism, phase);
+    let part = touching.part_of(phase);
+    let forces = super::determined_forces(&touching.mechanism, configuration, &part)?;
+    let forces: Vec<Option<f64>> = forces.contacts.into_iter().map(|[normal, _]| normal).collect();
+    Ok(touching.of_all(&forces, Some(0.0)))
+}
