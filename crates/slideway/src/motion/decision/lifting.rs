@@ -18,7 +18,7 @@ use super::successors::{Successor, Successors, combinations};
 use super::{MOST_STATES, PhaseBound, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::mechanism::{JointKind, Mechanism};
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::Verdict;
@@ -156,6 +156,19 @@ pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, F
     });
     found.list = candidates.into_iter().map(|(candidate, ..)| candidate.continuation).collect();
     Ok(found)
+}
+
+/// The guided sliders that would tip in one of the sets of contacts that may be open.
+///
+/// # Errors
+/// As [`continuations`].
+pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
+    let mut joints = Vec::new();
+    for open in sets_of_open(event)? {
+        let found = Touching::new(event.mechanism, open).successors(event)?;
+        joints.extend(found.tipping.into_iter().flat_map(|tipping| tipping.joints));
+    }
+    Ok(joints)
 }
 
 /// The sets of contacts that may be open at an instant: what is apart, with some of those that touch.

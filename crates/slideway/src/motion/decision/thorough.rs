@@ -38,7 +38,7 @@ impl Decisions for Thorough {
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
         if may_lift_off(instant.mechanism) {
-            return Ok(Vec::new());
+            return super::lifting::tipping(instant);
         }
         let found = super::continuations(instant)?;
         Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
