@@ -14,7 +14,7 @@ use super::joints::{TOUCHES, little_rate};
 use super::parts::SAME;
 use super::rules::{Continuation, Continuations, EventInstant};
 use super::sticking::phase_state;
-use super::successors::{Successor, Successors, combinations};
+use super::successors::{Successor, Successors};
 use super::{MOST_STATES, PhaseBound, Standing};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -50,6 +50,11 @@ impl<'m> Touching<'m> {
     /// What a phase of the whole mechanism says of it.
     pub(super) fn part_of(&self, phase: &Phase) -> Phase {
         Phase { contacts: self.kept.iter().map(|&k| phase.contacts[k]).collect(), ..phase.clone() }
+    }
+
+    /// The number in the whole of a contact that is left.
+    pub(super) fn number(&self, contact: ContactId) -> usize {
+        self.kept[contact.index()]
     }
 
     /// A list of values, one for each contact that is left, for all contacts.
@@ -183,18 +188,28 @@ fn sets_of_open(event: &EventInstant<'_>) -> Result<Vec<Vec<usize>>, Faults> {
         let was_closed = previous.is_some_and(|phase| !phase.is_open(mechanism, contact.index()));
         !was_closed && (gap > TOUCHES * mechanism.size || rate > little)
     };
-    let options: Vec<Vec<Option<usize>>> = mechanism
-        .one_sided()
-        .map(|contact| match is_apart(contact) {
-            true => vec![Some(contact.index())],
-            false => vec![None, Some(contact.index())],
-        })
-        .collect();
-    let states = options.iter().fold(1_u64, |states, options| states.saturating_mul(options.len() as u64));
+    let (apart, touching): (Vec<ContactId>, Vec<ContactId>) =
+        mechanism.one_sided().partition(|contact| is_apart(*contact));
+    let touching: Vec<usize> = touching.into_iter().map(ContactId::index).collect();
+    let with_apart = |open: Vec<usize>| {
+        let mut open: Vec<usize> = apart.iter().map(|contact| contact.index()).chain(open).collect();
+        open.sort_unstable();
+        open
+    };
+    Ok(subsets(&touching)?.into_iter().map(with_apart).collect())
+}
+
+/// All sets of some of these, the empty one first.
+///
+/// # Errors
+/// There are more than are tried.
+pub(super) fn subsets(of: &[usize]) -> Result<Vec<Vec<usize>>, Faults> {
+    let states = of.iter().fold(1_u64, |states, _| states.saturating_mul(2));
     if states > MOST_STATES {
         return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
     }
-    Ok(combinations(&options).into_iter().map(|open| open.into_iter().flatten().collect()).collect())
+    let chosen = |set: u64| of.iter().enumerate().filter(move |(at, _)| set >> at & 1 == 1).map(|(_, k)| *k);
+    Ok((0..states).map(|set| chosen(set).collect()).collect())
 }
 
 /// The accelerations of all bodies in the phase that has ended, at its end.

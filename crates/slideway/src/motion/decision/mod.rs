@@ -91,7 +91,7 @@ mod vanishing;
 pub(super) use assessment::ASSESSED;
 pub(super) use determined::{DeterminedForces, determined_forces};
 pub(super) use elastic::verdict_on;
-pub(super) use impact::impact_within;
+pub(super) use impact::{Landing, impact_within, landing};
 pub use impact::{Blow, Impact, impact};
 pub use jam::{Impulse, Jam, jam};
 pub(super) use joints::{TOUCHES, relative_velocities};

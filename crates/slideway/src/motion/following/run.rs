@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
-use crate::motion::decision::Blow;
+use crate::motion::decision::{Blow, Landing, landing};
 use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
@@ -198,7 +198,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 (!stops).then_some(End::TravelLimit(*joint))
             }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
-            Cause::Touches(contact) => Some(End::Touches(*contact)),
+            Cause::Touches(contact) if self.is_beside(*contact) => Some(End::BesideFace(*contact)),
             Cause::ReactionLimit(contact) => Some(End::ReactionLimit(*contact)),
             Cause::User(index, _) => self.options.events[*index].ends.then_some(End::UserEvent(*index)),
             _ => None,
@@ -221,7 +221,7 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Decides how the motion goes on, after impulses if it must; nothing is decided once the work is to end.
     fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
-        if self.hit(&mut causes)? {
+        if self.hit(&mut causes)? | self.land(&mut causes)? {
             previous = None;
         }
         for _ in 0..MOST_IMPULSES {
@@ -325,6 +325,38 @@ impl<'a, 'm> Run<'a, 'm> {
             if !causes.iter().any(is_told) {
                 causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost: Some(0.0) });
             }
+        }
+        Ok(true)
+    }
+
+    /// Whether a contact reaches the line of its face beyond its ends.
+    fn is_beside(&self, contact: ContactId) -> bool {
+        let equations = &self.smooth.equations;
+        let slider = equations.mechanism.slider(equations.mechanism.contacts[contact.index()].joint);
+        let room = |end| slider.map_or(0.0, |slider| equations.room_on_face(slider, contact, end));
+        room(-1.0).min(room(1.0)) < 0.0
+    }
+
+    /// The impact of contacts on their faces, if the causes tell of one.
+    fn land(&mut self, causes: &mut Vec<Cause>) -> Result<bool, Faults> {
+        let of = |cause: &Cause| match cause {
+            Cause::Touches(contact) => Some(*contact),
+            _ => None,
+        };
+        let contacts: Vec<ContactId> = causes.iter().filter_map(of).collect();
+        let (Some(phase), false) = (self.phase.clone(), contacts.is_empty()) else { return Ok(false) };
+        self.smooth.put_on_face(&phase, &contacts);
+        self.smooth.equations.place(self.smooth.time, &self.smooth.state);
+        let configuration = self.smooth.equations.configuration.clone();
+        let mechanism = self.smooth.equations.mechanism;
+        let Landing { after, energy_lost } = landing(mechanism, &configuration, self.work)?;
+        self.smooth.set_velocities(&after.velocities);
+        self.note_impulse(energy_lost);
+        causes.retain(|cause| !matches!(cause, Cause::Touches(_) | Cause::Stops(_)));
+        for (index, contact) in contacts.into_iter().enumerate() {
+            let speed = -configuration.gap(mechanism, contact)[1];
+            let energy_lost = (index == 0).then_some(energy_lost);
+            causes.push(Cause::Lands { contact, speed, energy_lost });
         }
         Ok(true)
     }

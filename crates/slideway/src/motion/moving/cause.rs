@@ -18,6 +18,15 @@ pub enum Cause {
     PreloadGapEnds(ContactId, Side),
     /// A contact that was open reaches its face.
     Touches(ContactId),
+    /// A contact lands on its face.
+    Lands {
+        /// The contact.
+        contact: ContactId,
+        /// How fast its gap closes before (m/s).
+        speed: f64,
+        /// Kinetic energy that is lost (J); of contacts that land together the first has that of all.
+        energy_lost: Option<f64>,
+    },
     /// The sliding velocity of a joint has reached zero.
     Stops(JointId),
     /// The joints that stick cannot do so any longer.
@@ -93,6 +102,8 @@ kinds! {
         PreloadGapEnds,
         /// A contact that was open reaches its face.
         Touches,
+        /// A contact lands on its face.
+        Lands,
         /// A joint stops sliding.
         Stops,
         /// Sticking joints begin to slip.
@@ -160,6 +171,7 @@ impl Cause {
             Self::NormalForceZero(contact)
             | Self::PreloadGapEnds(contact, _)
             | Self::Touches(contact)
+            | Self::Lands { contact, .. }
             | Self::ReactionLimit(contact) => Some(&mechanism.contacts[contact.index()].name),
             Self::Stops(joint)
             | Self::StopsTurning(joint)

@@ -113,6 +113,17 @@ impl Words<'_> {
                 None => format!("the normal force of {} vanishes", self.contact(*contact)),
             },
             Cause::Touches(contact) => format!("{} reaches its face", self.contact(*contact)),
+            Cause::Lands { contact, speed, energy_lost } => {
+                let lands = format!(
+                    "{} lands with {}",
+                    self.contact(*contact),
+                    self.mechanism.units.of("m/s").brief(*speed)
+                );
+                match energy_lost {
+                    Some(energy) => format!("{lands} ({} lost)", self.mechanism.units.of("J").brief(*energy)),
+                    None => lands,
+                }
+            }
             Cause::Stops(joint) => match after {
                 Some(_) => return None,
                 None => format!("{} stops", self.name(*joint)),

@@ -22,8 +22,8 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
         End::OverlapVanished(id) => {
             format!("It ends at {time}: {} leaves its guide.", moving(mechanism, *id))
         }
-        End::Touches(id) => format!(
-            "It ends at {time}: {} reaches its face, and an impact follows, which is not computed.",
+        End::BesideFace(id) => format!(
+            "It ends at {time}: {} passes the line of its face beyond its end, and what it meets there is not in the model.",
             mechanism.contacts[id.index()].name
         ),
         End::ReactionLimit(id) => format!(

@@ -155,8 +155,8 @@ kinds! {
         TravelLimit,
         /// A block leaves its guide.
         OverlapVanished,
-        /// A contact that was open reaches its face.
-        Touches,
+        /// A contact that was open reaches the line of its face beyond the ends of the face.
+        BesideFace,
         /// A normal force reaches its limit.
         ReactionLimit,
         /// An event of the model that stops the motion.
@@ -408,7 +408,7 @@ fn event_report(history: &History, event: &Event, configuration: &Configuration)
     let several = event.successors.len() > 1;
     let lost = event.causes.iter().map(|cause| match cause {
         Cause::Jams { energy_lost } => *energy_lost,
-        Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
+        Cause::Hits { energy_lost, .. } | Cause::Lands { energy_lost, .. } => energy_lost.unwrap_or(0.0),
         _ => 0.0,
     });
     EventReport {

@@ -2,6 +2,7 @@
 //!
 //! What a stop does, and the course of an impact, are here; which impulses are possible is in `pushed.rs`.
 
+mod landing;
 mod pushed;
 
 use super::MOST_STATES;
@@ -15,6 +16,7 @@ use crate::pattern::phase::sliding_joints;
 use crate::progress::Work;
 use nalgebra::DVector;
 use pushed::Pushed;
+pub(in crate::motion) use landing::{Landing, landing};
 pub(in crate::motion) use pushed::impact_within;
 
 /// The effect of an impact on end stops.
