@@ -66,11 +66,11 @@ impl Mechanism {
         whole
     }
 
-    /// The mechanism while these contacts are open, in their order: they are apart from their faces, and a block that is left
-    /// with one corner touches with that.
-    pub(crate) fn touching(&self, open: &[usize]) -> Self {
+    /// The mechanism while these contacts are open, in their order: those that still touch are apart from their faces in it, the
+    /// others are not there, and a block that is left with one corner touches with that.
+    pub(crate) fn touching(&self, open: &[usize], touch: impl Fn(usize) -> bool) -> Self {
         let mut left = self.without_contacts(open);
-        for &k in open {
+        for &k in open.iter().filter(|&&k| touch(k)) {
             let contact = &self.contacts[k];
             if let JointKind::Slider(slider) = &mut left.joints[contact.joint.index()].kind {
                 slider.apart.push(contact.clone());
@@ -78,10 +78,14 @@ impl Mechanism {
         }
         for joint in &mut left.joints {
             let JointKind::Slider(slider) = &mut joint.kind else { continue };
-            let ([corner], false) = (&slider.contacts[..], slider.apart.is_empty()) else { continue };
+            let [corner] = slider.contacts[..] else { continue };
+            if !left.contacts[corner.index()].opens {
+                continue;
+            }
             let moved = std::mem::replace(&mut left.contacts[corner.index()].offset, 0.0);
             slider.apart.iter_mut().for_each(|contact| contact.offset -= moved);
             slider.at += slider.tangent * moved;
+            slider.travel = None;
             slider.kind = SliderKind::Pin;
         }
         left

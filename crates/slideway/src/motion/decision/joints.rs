@@ -1,9 +1,8 @@
 //! The sliding joints of a mechanism at an instant, and its hinges with friction.
 
-use super::impulse::AT_REST;
 use super::scale::{Scale, Share};
 use super::units::{Units, greatest, units};
-use crate::configuration::{Configuration, Velocity};
+use crate::configuration::Configuration;
 use crate::ids::{BodyId, ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{KineticEquations, Reaction, SlidingRow};
@@ -27,8 +26,8 @@ pub(super) struct SlidingJoint {
     pub(super) couple: Option<GuidedCouple>,
     /// Its sliding acceleration.
     pub(super) row: SlidingRow,
-    /// Of its contacts that are apart from their face those that touch it and do not leave it yet, by their numbers among
-    /// these: the accelerations of their gaps.
+    /// Of its contacts that are apart from their face those whose gaps are zero, by their numbers among these: the accelerations
+    /// of these gaps.
     pub(super) gaps: Vec<(usize, SlidingRow)>,
     /// Its sliding velocity (m/s).
     pub(super) velocity: f64,
@@ -139,25 +138,18 @@ pub(super) fn sliding_joints(
     mechanism.joints.iter().enumerate().filter_map(one).collect()
 }
 
-/// Of each sliding joint the contacts that are apart from their face in the mechanism, and touch it without leaving it, by their
-/// numbers among these.
+/// Of each sliding joint the contacts that are apart from their face in the mechanism, but whose gaps are zero, by their numbers
+/// among these.
 pub(super) fn touching_gaps(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vec<usize>> {
-    let little = little_rate(mechanism, configuration);
-    let touches = |[gap, rate]: [f64; 2]| gap <= TOUCHES * mechanism.size && rate <= little;
     let of_joint = |joint: &crate::mechanism::Joint| match &joint.kind {
         JointKind::Slider(slider) => {
             let gaps = configuration.gaps(mechanism, slider).enumerate();
-            Some(gaps.filter(|(_, gap)| touches(*gap)).map(|(number, _)| number).collect())
+            let touches = |(_, [gap, _]): &(usize, [f64; 2])| *gap <= TOUCHES * mechanism.size;
+            Some(gaps.filter(touches).map(|(number, _)| number).collect())
         }
         JointKind::Hinge(_) => None,
     };
     mechanism.joints.iter().filter_map(of_joint).collect()
-}
-
-/// The rate of a gap beside which it counts as zero (m/s): rounding of the greatest velocity.
-pub(super) fn little_rate(mechanism: &Mechanism, configuration: &Configuration) -> f64 {
-    let speed = |v: &Velocity| v.linear.amax().max(v.angular.abs() * mechanism.size);
-    AT_REST * configuration.velocities.iter().map(speed).fold(0.0, f64::max)
 }
 
 /// Puts the accelerations of these gaps into the sliding joints.

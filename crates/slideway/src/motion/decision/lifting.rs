@@ -10,20 +10,25 @@
 //! zero, and how these go on decides.
 
 use super::elastic::verdict_on;
-use super::joints::{TOUCHES, little_rate};
+use super::impulse::AT_REST;
+use super::joints::TOUCHES;
 use super::parts::SAME;
 use super::rules::{Continuation, Continuations, EventInstant};
 use super::sticking::phase_state;
 use super::successors::{Successor, Successors};
 use super::{MOST_STATES, PhaseBound, Standing};
-use crate::configuration::Configuration;
+use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
+use crate::kinetics::KineticEquations;
 use crate::mechanism::{JointKind, Mechanism};
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::Verdict;
 use nalgebra::DVector;
 use std::cmp::Reverse;
+
+/// Below this part of the velocity of the least flight a gap does not open.
+const LITTLE_FLIGHT: f64 = 1e-3;
 
 /// A mechanism of which some contacts that may lift off are open.
 pub(super) struct Touching<'m> {
@@ -36,15 +41,17 @@ pub(super) struct Touching<'m> {
 }
 
 impl<'m> Touching<'m> {
-    /// The mechanism while these contacts are open.
-    pub(super) fn new(whole: &'m Mechanism, open: Vec<usize>) -> Self {
+    /// The mechanism while the contacts that are apart and some of those that touch are open.
+    pub(super) fn new(whole: &'m Mechanism, apart: &[usize], left: &[usize]) -> Self {
+        let mut open = [apart, left].concat();
+        open.sort_unstable();
         let kept = (0..whole.contacts.len()).filter(|k| !open.contains(k)).collect();
-        Self { mechanism: whole.touching(&open), whole, open, kept }
+        Self { mechanism: whole.touching(&open, |k| left.contains(&k)), whole, open, kept }
     }
 
     /// The mechanism in a phase.
     pub(super) fn in_phase(whole: &'m Mechanism, phase: &Phase) -> Self {
-        Self::new(whole, phase.open(whole))
+        Self::new(whole, &phase.open(whole), &[])
     }
 
     /// What a phase of the whole mechanism says of it.
@@ -132,20 +139,19 @@ struct Candidate {
 /// As [`successors`](super::successors()), for each set of contacts that touch.
 pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, Faults> {
     let mechanism = event.mechanism;
-    let all = sets_of_open(event)?;
+    let (apart, sets) = sets_of_open(event)?;
     let before = accelerations_before(event)?;
     let mut found = Continuations::default();
     let mut candidates: Vec<(Candidate, Touching<'_>, Phase)> = Vec::new();
-    for open in all {
+    for left in sets {
         if event.work.is_over() {
             break;
         }
-        let count = open.len();
-        let successors = Touching::new(mechanism, open.clone()).successors(event)?;
+        let successors = Touching::new(mechanism, &apart, &left).successors(event)?;
         found.left_out |= !successors.complete || !successors.unsolved.is_empty();
         for successor in successors.list {
-            let touching = Touching::new(mechanism, open.clone());
-            let candidate = candidate(event, (&touching, &successor, count), before.as_ref());
+            let touching = Touching::new(mechanism, &apart, &left);
+            let candidate = candidate(event, (&touching, &successor, left.len()), before.as_ref());
             candidates.push((candidate, touching, successor.phase));
         }
     }
@@ -169,34 +175,48 @@ pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, F
 /// As [`continuations`].
 pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
     let mut joints = Vec::new();
-    for open in sets_of_open(event)? {
-        let found = Touching::new(event.mechanism, open).successors(event)?;
+    let (apart, sets) = sets_of_open(event)?;
+    for left in sets {
+        let found = Touching::new(event.mechanism, &apart, &left).successors(event)?;
         joints.extend(found.tipping.into_iter().flat_map(|tipping| tipping.joints));
     }
     Ok(joints)
 }
 
-/// The sets of contacts that may be open at an instant: what is apart, with some of those that touch.
+/// The contacts that are apart at an instant, and the sets of those that touch which may be open, too.
 ///
 /// # Errors
-/// So many touch that not all sets are tried.
-fn sets_of_open(event: &EventInstant<'_>) -> Result<Vec<Vec<usize>>, Faults> {
+/// So many touch that not all sets are tried; no free bodies.
+fn sets_of_open(event: &EventInstant<'_>) -> Result<(Vec<usize>, Vec<Vec<usize>>), Faults> {
     let EventInstant { mechanism, configuration, previous, .. } = *event;
-    let little = little_rate(mechanism, configuration);
-    let is_apart = |contact: ContactId| {
-        let [gap, rate] = configuration.gap(mechanism, contact);
+    let speed = |v: &Velocity| v.linear.amax().max(v.angular.abs() * mechanism.size);
+    let fastest = configuration.velocities.iter().map(speed).fold(0.0, f64::max);
+    let little = (AT_REST * fastest).max(LITTLE_FLIGHT * least_flight(mechanism, configuration)?);
+    let is_apart = |contact: &ContactId| {
+        let [gap, rate] = configuration.gap(mechanism, *contact);
         let was_closed = previous.is_some_and(|phase| !phase.is_open(mechanism, contact.index()));
         !was_closed && (gap > TOUCHES * mechanism.size || rate > little)
     };
-    let (apart, touching): (Vec<ContactId>, Vec<ContactId>) =
-        mechanism.one_sided().partition(|contact| is_apart(*contact));
-    let touching: Vec<usize> = touching.into_iter().map(ContactId::index).collect();
-    let with_apart = |open: Vec<usize>| {
-        let mut open: Vec<usize> = apart.iter().map(|contact| contact.index()).chain(open).collect();
-        open.sort_unstable();
-        open
+    let (apart, touching): (Vec<ContactId>, Vec<ContactId>) = mechanism.one_sided().partition(is_apart);
+    let numbers = |contacts: Vec<ContactId>| contacts.into_iter().map(ContactId::index).collect::<Vec<_>>();
+    Ok((numbers(apart), subsets(&numbers(touching))?))
+}
+
+/// The velocity `u` with which a contact leaves its face for a flight that rounding of places hides, `u^2/(2 a) = d` with the
+/// least length `d` and the greatest acceleration `a` of the bodies without contacts that may lift off (m/s).
+///
+/// # Errors
+/// As [`KineticEquations::new`].
+pub(super) fn least_flight(mechanism: &Mechanism, configuration: &Configuration) -> Result<f64, Faults> {
+    let all: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
+    let free = mechanism.without_contacts(&all);
+    let unknowns = KineticEquations::new(&free, configuration)?.frictionless();
+    let bodies = unknowns.rows(0, 3 * mechanism.bodies.len());
+    let in_metres = |(index, value): (usize, &f64)| {
+        value.abs() * if index % 3 == 2 { mechanism.size } else { 1.0 }
     };
-    Ok(subsets(&touching)?.into_iter().map(with_apart).collect())
+    let greatest = bodies.iter().enumerate().map(in_metres).fold(0.0, f64::max);
+    Ok((2.0 * greatest * TOUCHES * mechanism.size).sqrt())
 }
 
 /// All sets of some of these, the empty one first.

@@ -7,7 +7,8 @@
 //! Each set of contacts that are left is tried, with the mechanism as it touches without them. The contacts that push are rows
 //! of it, and the rates of their gaps go to zero in proportion; what belongs to that without friction stands in the place of the
 //! loads, and friction is that of [`impulses`](super::super::impulse). This lasts until something that slides stops, and is then
-//! decided anew.
+//! decided anew. A contact that would leave for a flight which rounding of places hides has come to rest: the rate of its gap
+//! goes to zero, too.
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -17,7 +18,7 @@ use crate::motion::decision::assessment::Assessment;
 use crate::motion::decision::impulse::{AT_REST, Impulses};
 use crate::motion::decision::instant::Instant;
 use crate::motion::decision::joints::TOUCHES;
-use crate::motion::decision::lifting::{Touching, subsets};
+use crate::motion::decision::lifting::{Touching, least_flight, subsets};
 use crate::motion::decision::parts::SAME;
 use crate::motion::moving::energy::kinetic;
 use crate::pattern::{ContactPhase, JointPhase};
@@ -49,23 +50,49 @@ pub(in crate::motion) fn landing(
     configuration: &Configuration,
     work: Work<'_>,
 ) -> Result<Landing, Faults> {
-    let mut after = configuration.clone();
-    let rates = |configuration: &Configuration| -> Vec<(usize, f64)> {
-        let gaps = mechanism.one_sided().map(|contact| (contact.index(), configuration.gap(mechanism, contact)));
-        let touching = gaps.filter(|(_, [gap, _])| *gap <= TOUCHES * mechanism.size);
-        touching.map(|(k, [_, rate])| (k, rate)).collect()
-    };
-    let fastest = rates(configuration).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
-    for _ in 0..4 * mechanism.joints.len() + 2 {
-        let touching = rates(&after);
-        if touching.iter().all(|(_, rate)| *rate >= -AT_REST * fastest) {
+    let least = least_flight(mechanism, configuration)?;
+    let mut resting = Vec::new();
+    loop {
+        let after = course(mechanism, configuration, (&resting, work))?;
+        let rests = |(k, rate): &(usize, f64)| !resting.contains(k) && *rate > 0.0 && *rate <= least;
+        let further: Vec<usize> =
+            rates(mechanism, &after).into_iter().filter(rests).map(|(k, _)| k).collect();
+        if further.is_empty() {
             let energy_lost = kinetic(mechanism, configuration) - kinetic(mechanism, &after);
             return Ok(Landing { after, energy_lost });
         }
-        let part = part(mechanism, &after, (&touching, work))?;
+        resting.extend(further);
+    }
+}
+
+/// The contacts whose gaps are zero, with the rates of these (m/s).
+fn rates(mechanism: &Mechanism, configuration: &Configuration) -> Vec<(usize, f64)> {
+    let gaps = mechanism.one_sided().map(|contact| (contact.index(), configuration.gap(mechanism, contact)));
+    let touching = gaps.filter(|(_, [gap, _])| *gap <= TOUCHES * mechanism.size);
+    touching.map(|(k, [_, rate])| (k, rate)).collect()
+}
+
+/// The state after an impact in which some contacts come to rest.
+fn course(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    (resting, work): (&[usize], Work<'_>),
+) -> Result<Configuration, Faults> {
+    let mut after = configuration.clone();
+    let fastest = rates(mechanism, configuration).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
+    for _ in 0..4 * mechanism.joints.len() + 2 {
+        let touching = rates(mechanism, &after);
+        let is_over = |(k, rate): &(usize, f64)| {
+            let ends = if resting.contains(k) { -rate.abs() } else { *rate };
+            ends >= -AT_REST * fastest
+        };
+        if touching.iter().all(is_over) {
+            return Ok(after);
+        }
+        let part = part(mechanism, &after, (&touching, resting, work))?;
         after = moved(&after, &part, mechanism);
     }
-    Err(wedges(mechanism, &rates(&after)))
+    Err(wedges(mechanism, &rates(mechanism, &after)))
 }
 
 fn moved(configuration: &Configuration, part: &Part, mechanism: &Mechanism) -> Configuration {
@@ -87,17 +114,16 @@ fn wedges(mechanism: &Mechanism, touching: &[(usize, f64)]) -> Faults {
 fn part(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    (touching, work): (&[(usize, f64)], Work<'_>),
+    (touching, resting, work): (&[(usize, f64)], &[usize], Work<'_>),
 ) -> Result<Part, Faults> {
     let all: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
     let apart = all.into_iter().filter(|k| !touching.iter().any(|(other, _)| other == k));
     let apart: Vec<usize> = apart.collect();
-    let options: Vec<usize> = touching.iter().map(|(k, _)| *k).collect();
+    let options: Vec<usize> = touching.iter().map(|(k, _)| *k).filter(|k| !resting.contains(k)).collect();
     let mut found: Vec<Part> = Vec::new();
     for left in subsets(&options)? {
-        let mut open: Vec<usize> = apart.iter().copied().chain(left).collect();
-        open.sort_unstable();
-        let other = part_with(&Touching::new(mechanism, open), configuration, (touching, work))?;
+        let other = Touching::new(mechanism, &apart, &left);
+        let other = part_with(&other, configuration, (touching, resting, work))?;
         let bodies = 3 * mechanism.bodies.len();
         let differs = |part: &Part, other: &Part| {
             let [one, other] = [part, other].map(|part| part.jumps.rows(0, bodies).into_owned());
@@ -119,7 +145,7 @@ fn part(
 fn part_with(
     touching: &Touching<'_>,
     configuration: &Configuration,
-    (rates, work): (&[(usize, f64)], Work<'_>),
+    (rates, resting, work): (&[(usize, f64)], &[usize], Work<'_>),
 ) -> Result<Vec<Part>, Faults> {
     let mechanism = &touching.mechanism;
     let instant = Instant::new(mechanism, configuration)?;
@@ -147,7 +173,9 @@ fn part_with(
         velocities.iter().enumerate().map(|(joint, velocity)| impulses.options(joint, *velocity)).collect();
     let mut question = impulses.question(&vec![0.0; velocities.len()], &stopped);
     for contact in mechanism.one_sided() {
-        question.sides[contact.index()] = ContactPhase::CLOSED.to_vec();
+        if !resting.contains(&touching.number(contact)) {
+            question.sides[contact.index()] = ContactPhase::CLOSED.to_vec();
+        }
     }
     let mut all: Vec<Option<Assessment>> = vec![None];
     for group in &instant.groups {

@@ -204,7 +204,7 @@ impl<'m> Equations<'m> {
     ) -> Result<(), Failure> {
         self.place(time, state);
         let open = phase.open(self.mechanism);
-        self.touching = (!open.is_empty()).then(|| Box::new(self.mechanism.touching(&open)));
+        self.touching = (!open.is_empty()).then(|| Box::new(self.mechanism.touching(&open, |_| false)));
         self.choose_friction(phase);
         self.choose_stuck(phase);
         let size = self.layout.len() + self.stuck.len();
