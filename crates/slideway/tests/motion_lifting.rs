@@ -164,7 +164,9 @@ fn a_block_is_thrown_by_a_table() {
 #[test]
 fn a_block_falls_flat() {
     let (d, u, mu) = (0.2, 1.0, 0.3);
-    let joint = format!("at = \"M\"\nface = [[\"-1 m\", \"-{d} m\"], [\"1 m\", \"-{d} m\"]]\nmu = {mu}\nclosed = false");
+    let joint = format!(
+        "at = \"M\"\nface = [[\"-1 m\", \"-{d} m\"], [\"1 m\", \"-{d} m\"]]\nmu = {mu}\nclosed = false"
+    );
     let coordinates = format!(
         "[coordinates.x]\nx = \"box.C\"\nrate = \"{u} m/s\"\n[coordinates.y]\ny = \"box.C\"\n[coordinates.turn]\nrotation = \"box\""
     );
@@ -193,7 +195,8 @@ fn lost(cause: &Cause) -> Option<f64> {
 fn a_block_rocks_to_rest() {
     let (b, h, tilt) = (0.2, 0.4, 10_f64.to_radians());
     let joint = "at = \"M\"\nalong = \"0 deg\"\nmu = 3\nclosed = [\"rear\"]";
-    let coordinates = "[coordinates.x]\nslide = \"base\"\n[coordinates.turn]\nrotation = \"box\"\nvalue = \"10 deg\"";
+    let coordinates =
+        "[coordinates.x]\nslide = \"base\"\n[coordinates.turn]\nrotation = \"box\"\nvalue = \"10 deg\"";
     let history = history(&block([b, h], joint, coordinates), 1.5);
     assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
     let all = landings(&history);
@@ -263,7 +266,9 @@ fn impacts_take_energy() {
     for _ in 0..60 {
         let [tilt, u, v, w] = [next(-40.0, 40.0), next(-2.0, 2.0), next(-3.0, 0.0), next(-5.0, 5.0)];
         let (b, h, mu) = (next(0.1, 0.5), next(0.1, 0.5), next(0.0, 0.9));
-        let joint = format!("at = \"M\"\nface = [[\"-9 m\", \"-0.4 m\"], [\"9 m\", \"-0.4 m\"]]\nmu = {mu}\nclosed = false");
+        let joint = format!(
+            "at = \"M\"\nface = [[\"-9 m\", \"-0.4 m\"], [\"9 m\", \"-0.4 m\"]]\nmu = {mu}\nclosed = false"
+        );
         let coordinates = format!(
             "[coordinates.x]\nx = \"box.C\"\nrate = \"{u} m/s\"\n[coordinates.y]\ny = \"box.C\"\nrate = \"{v} m/s\"\n\
              [coordinates.turn]\nrotation = \"box\"\nvalue = \"{tilt} deg\"\nrate = \"{w} rad/s\""

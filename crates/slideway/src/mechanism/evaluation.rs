@@ -254,9 +254,9 @@ impl<T: Real> Evaluation<'_, T> {
                 .filter(|formula| !self.model.formula(*formula).moves())
                 .map_or(T::zero(), |misalignment| self.value(misalignment)),
             misalignment_law: contact.misalignment.filter(|formula| self.model.formula(*formula).moves()),
-            pad: contact.pad.map(|pad| {
-                [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
-            }),
+            pad: contact
+                .pad
+                .map(|pad| [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]),
             face,
             opens: contact.opens,
             gap: T::zero(),
@@ -274,7 +274,9 @@ impl<T: Real> Evaluation<'_, T> {
             Touches::Nothing => [half, -half],
         };
         let contacts = slider.apart.iter().zip(offsets);
-        contacts.map(|(contact, offset)| Contact { gap, ..self.contact((contact, joint), 0, [offset, length]) }).collect()
+        contacts
+            .map(|(contact, offset)| Contact { gap, ..self.contact((contact, joint), 0, [offset, length]) })
+            .collect()
     }
 
     /// How far a block is from the face that the drawing shows (m); none where the face follows from the block.

@@ -278,8 +278,7 @@ impl<'m> Instant<'m> {
     pub(super) fn gap_outputs(&self, joint: usize) -> Range<usize> {
         let gaps = |joints: &[SlidingJoint]| joints.iter().map(|joint| joint.gaps.len()).sum::<usize>();
         let couples = self.joints.iter().filter(|joint| joint.couple.is_some()).count();
-        let first =
-            self.mechanism.contacts.len() + self.joints.len() + couples + gaps(&self.joints[..joint]);
+        let first = self.mechanism.contacts.len() + self.joints.len() + couples + gaps(&self.joints[..joint]);
         first..first + self.joints[joint].gaps.len()
     }
 

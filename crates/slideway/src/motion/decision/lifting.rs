@@ -212,9 +212,8 @@ pub(super) fn least_flight(mechanism: &Mechanism, configuration: &Configuration)
     let free = mechanism.without_contacts(&all);
     let unknowns = KineticEquations::new(&free, configuration)?.frictionless();
     let bodies = unknowns.rows(0, 3 * mechanism.bodies.len());
-    let in_metres = |(index, value): (usize, &f64)| {
-        value.abs() * if index % 3 == 2 { mechanism.size } else { 1.0 }
-    };
+    let in_metres =
+        |(index, value): (usize, &f64)| value.abs() * if index % 3 == 2 { mechanism.size } else { 1.0 };
     let greatest = bodies.iter().enumerate().map(in_metres).fold(0.0, f64::max);
     Ok((2.0 * greatest * TOUCHES * mechanism.size).sqrt())
 }

@@ -51,7 +51,7 @@
 //! sticking and sliding joints of a group, `assessment.rs` the slacks of a phase, and `growth.rs` whether
 //! they grow along its motion. `parts.rs` lists what each group can do, in order of preference, and
 //! `successors.rs` combines the parts. The other questions are in `sticking.rs`, `determined.rs` (normal
-//! forces that statics determines), `jam.rs` and `impact/` (end stops); the last two are based on
+//! forces that statics determines), `jam.rs` and `impact/` (end stops, faces); the last two are based on
 //! `impulse.rs`. `vanishing.rs` sets to zero what an event has found to be zero, `scale.rs` provides the
 //! units where forces vanish, `sieve.rs` quickly excludes patterns of sliding, and `holding.rs` looks ahead
 //! in time for bodies that stand still while loads change, with forces that are affine in the loads
@@ -91,8 +91,8 @@ mod vanishing;
 pub(super) use assessment::ASSESSED;
 pub(super) use determined::{DeterminedForces, determined_forces};
 pub(super) use elastic::verdict_on;
-pub(super) use impact::{Landing, impact_within, landing};
 pub use impact::{Blow, Impact, impact};
+pub(super) use impact::{Landing, impact_within, landing};
 pub use jam::{Impulse, Jam, jam};
 pub(super) use joints::{TOUCHES, relative_velocities};
 pub use rules::Outlook;

@@ -1,6 +1,7 @@
 //! What follows the motion: phase by phase (`run.rs`), step by step within a phase (`smooth/`), and through
-//! impacts on end stops (`stop.rs`).
+//! impacts on end stops (`stop.rs`) and on faces (`landing.rs`).
 
+mod landing;
 pub(in crate::motion) mod run;
 pub(in crate::motion) mod smooth;
 pub(in crate::motion) mod stop;

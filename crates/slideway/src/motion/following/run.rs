@@ -6,7 +6,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::Mechanism;
-use crate::motion::decision::{Blow, Landing, landing};
+use crate::motion::decision::Blow;
 use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
@@ -33,11 +33,11 @@ const NEAR_FOLD: f64 = 1e-4;
 pub(in crate::motion) struct Run<'a, 'm> {
     options: &'a SimulateOptions,
     decisions: &'a mut dyn Decisions,
-    smooth: Smooth<'a, 'm>,
-    phase: Option<Phase>,
+    pub(super) smooth: Smooth<'a, 'm>,
+    pub(super) phase: Option<Phase>,
     history: History,
     branchings: usize,
-    work: Work<'a>,
+    pub(super) work: Work<'a>,
 }
 
 impl<'a, 'm> Run<'a, 'm> {
@@ -329,39 +329,7 @@ impl<'a, 'm> Run<'a, 'm> {
         Ok(true)
     }
 
-    /// Whether a contact reaches the line of its face beyond its ends.
-    fn is_beside(&self, contact: ContactId) -> bool {
-        let equations = &self.smooth.equations;
-        let slider = equations.mechanism.slider(equations.mechanism.contacts[contact.index()].joint);
-        let room = |end| slider.map_or(0.0, |slider| equations.room_on_face(slider, contact, end));
-        room(-1.0).min(room(1.0)) < 0.0
-    }
-
-    /// The impact of contacts on their faces, if the causes tell of one.
-    fn land(&mut self, causes: &mut Vec<Cause>) -> Result<bool, Faults> {
-        let of = |cause: &Cause| match cause {
-            Cause::Touches(contact) => Some(*contact),
-            _ => None,
-        };
-        let contacts: Vec<ContactId> = causes.iter().filter_map(of).collect();
-        let (Some(phase), false) = (self.phase.clone(), contacts.is_empty()) else { return Ok(false) };
-        self.smooth.put_on_face(&phase, &contacts);
-        self.smooth.equations.place(self.smooth.time, &self.smooth.state);
-        let configuration = self.smooth.equations.configuration.clone();
-        let mechanism = self.smooth.equations.mechanism;
-        let Landing { after, energy_lost } = landing(mechanism, &configuration, self.work)?;
-        self.smooth.set_velocities(&after.velocities);
-        self.note_impulse(energy_lost);
-        causes.retain(|cause| !matches!(cause, Cause::Touches(_) | Cause::Stops(_)));
-        for (index, contact) in contacts.into_iter().enumerate() {
-            let speed = -configuration.gap(mechanism, contact)[1];
-            let energy_lost = (index == 0).then_some(energy_lost);
-            causes.push(Cause::Lands { contact, speed, energy_lost });
-        }
-        Ok(true)
-    }
-
-    fn note_impulse(&mut self, energy_lost: f64) {
+    pub(super) fn note_impulse(&mut self, energy_lost: f64) {
         let before = self.history.impulses.last().map_or(0.0, |loss| loss.energy);
         self.history.impulses.push(ImpulseLoss { time: self.smooth.time, energy: before + energy_lost });
     }
@@ -465,11 +433,11 @@ impl<'a, 'm> Run<'a, 'm> {
         self.phase = phase;
     }
 
-    /// Whether the last events came within a very short time; bouncing at a stop comes to rest by itself.
+    /// Whether the last events came within a very short time; bouncing at a stop and rocking come to rest by themselves.
     fn accumulates(&self) -> bool {
         let events = &self.history.events;
         let Some(first) = events.len().checked_sub(CROWD) else { return false };
-        let hits = |cause: &Cause| matches!(cause, Cause::Hits { .. });
+        let hits = |cause: &Cause| matches!(cause, Cause::Hits { .. } | Cause::Lands { .. });
         let bounces = events[first..].iter().any(|event| event.causes.iter().any(hits));
         !bounces && self.smooth.time - events[first].time < SHORT * self.smooth.time_scale()
     }

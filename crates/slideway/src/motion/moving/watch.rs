@@ -283,9 +283,7 @@ impl<'o> Watch<'o> {
             Watched::Share(..) => FORCE_TOLERANCE,
             Watched::Velocity(..) => velocity,
             Watched::Spin(..) => velocity / mechanism.size,
-            Watched::Overlap(_) | Watched::Gap(_) | Watched::Travel(..) => {
-                LENGTH_TOLERANCE * mechanism.size
-            }
+            Watched::Overlap(_) | Watched::Gap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
@@ -318,8 +316,7 @@ fn pressing_force(contact: ContactId, phase: &Phase, equations: &Equations<'_>) 
 fn overlaps(equations: &Equations<'_>) -> f64 {
     let mechanism = equations.mechanism;
     let sliders = equations.sliders.iter().filter_map(|joint| mechanism.slider(*joint));
-    let blocks =
-        sliders.filter(|slider| slider.kind == SliderKind::Block && !mechanism.may_lift_off(slider));
+    let blocks = sliders.filter(|slider| slider.kind == SliderKind::Block && !mechanism.may_lift_off(slider));
     blocks
         .map(|slider| {
             let overlap = equations.configuration.overlap(mechanism, slider).unwrap_or(0.0) / slider.length;

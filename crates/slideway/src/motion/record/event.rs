@@ -236,12 +236,21 @@ impl Words<'_> {
         let (before, now) = (open(before), open(after));
         let opens = before.iter().zip(&now).any(|(before, now)| !before && *now);
         let name = self.name(joint);
-        let is = || self.state("is now", index, joint, after);
-        match now.contains(&false) {
+        let mut closed = slider.contacts.iter().zip(&now).filter(|(_, open)| !**open);
+        match closed.next() {
             _ if before == now => None,
-            false => Some(format!("{name} lifts off")),
-            true if opens => Some(format!("{name} tips: it {}", is())),
-            true => Some(format!("{name} touches: it {}", is())),
+            None => Some(format!("{name} lifts off")),
+            Some((corner, _)) if opens => {
+                let how = match after.joints[index] {
+                    JointPhase::Sticking => "which sticks".to_owned(),
+                    JointPhase::Sliding(sign) => {
+                        let tangent = self.configuration.slide(self.mechanism, slider).tangent;
+                        format!("sliding {}", direction_in_words(tangent * sign))
+                    }
+                };
+                Some(format!("{name} tips over {}, {how}", self.contact(*corner)))
+            }
+            Some(_) => Some(format!("{name} touches: it {}", self.state("is now", index, joint, after))),
         }
     }
 
@@ -315,6 +324,18 @@ impl Words<'_> {
             (JointPhase::Sliding(sign), Some(slider)) => {
                 let tangent = self.configuration.slide(self.mechanism, slider).tangent;
                 format!("{}, sliding {}", self.mode(verb, joint, phase), direction_in_words(tangent * sign))
+            }
+            (JointPhase::Sticking, Some(slider)) => self.sticks(slider, phase),
+            _ => "sticks".to_owned(),
+        }
+    }
+
+    /// That a sliding joint sticks; where, if some of its contacts are open.
+    fn sticks(&self, slider: &Slider, phase: &Phase) -> String {
+        let is_closed = |contact: &&ContactId| !phase.is_open(self.mechanism, contact.index());
+        match slider.contacts.iter().find(is_closed) {
+            Some(corner) if !slider.contacts.iter().all(|contact| is_closed(&contact)) => {
+                format!("sticks at {}", self.contact(*corner))
             }
             _ => "sticks".to_owned(),
         }

@@ -13,6 +13,11 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
     let joint = |joint: &JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => finished(history, &time),
+        End::TravelLimit(id)
+            if mechanism.slider(*id).is_some_and(|slider| mechanism.may_lift_off(slider)) =>
+        {
+            format!("It ends at {time}: {} reaches the end of its face.", moving(mechanism, *id))
+        }
         End::TravelLimit(id) => format!(
             "It ends at {time}: {} reaches the end of its travel{}, and {} has no stop there.",
             moving(mechanism, *id),

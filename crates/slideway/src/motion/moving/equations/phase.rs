@@ -99,8 +99,7 @@ impl Equations<'_> {
             let slider = self.mechanism.slider(joint);
             slider.is_some_and(|slider| slider.contacts.iter().any(|contact| !self.is_open(contact.index())))
         };
-        let sliders =
-            sliders.filter(|(joint, state)| **state == JointPhase::Sticking && touches(**joint));
+        let sliders = sliders.filter(|(joint, state)| **state == JointPhase::Sticking && touches(**joint));
         let hinges = phase.hinges.iter().enumerate();
         let hinges = hinges.filter(|(_, hinge)| hinge.state == JointPhase::Sticking);
         let sliders = sliders.map(|(joint, _)| Sticks::Slider(*joint));
