@@ -43,9 +43,12 @@ impl Instant<'_> {
 /// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section
 /// 4).
 fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
-    let options = |j: usize| match instant.mechanism.contacts[j].opens {
-        true => ContactPhase::CLOSED,
-        false => ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j))),
+    let options = |j: usize| {
+        if instant.mechanism.contacts[j].opens {
+            ContactPhase::CLOSED
+        } else {
+            ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j)))
+        }
     };
     let mut sides: Vec<Vec<ContactPhase>> =
         (0..instant.mechanism.contacts.len()).map(|j| options(j).to_vec()).collect();
