@@ -108,8 +108,9 @@ impl Painter<'_> {
         for (joint, slider) in sliders(mechanism) {
             let Some(slide) = self.slide(joint) else { continue };
             let rim = if slide.is_disc { 0.5 * slide.height } else { 0.0 };
-            for ([gap, _], (position, _)) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {
-                let corner = self.attached(&Attachment { frame: slider.block, position: *position });
+            for ([gap, _], contact) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {
+                let corner =
+                    self.attached(&Attachment { frame: slider.block, position: contact.position(slider) });
                 let from = corner - slide.guide.across * rim;
                 let to = from - slide.guide.across * (gap * self.view.scale);
                 self.line(Class::Leader, vec![from, to]);

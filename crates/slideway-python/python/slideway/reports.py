@@ -208,6 +208,8 @@ CauseKind = Literal[
     "start",
     "normal_force_zero",
     "preload_gap_ends",
+    "touches",
+    "lands",
     "stops",
     "slips",
     "stops_turning",
@@ -229,6 +231,8 @@ CauseKind = Literal[
 - `"start"`: The motion begins.
 - `"normal_force_zero"`: A normal force vanishes.
 - `"preload_gap_ends"`: A preload gap closes.
+- `"touches"`: A contact that was open reaches its face.
+- `"lands"`: A contact lands on its face.
 - `"stops"`: A joint stops sliding.
 - `"slips"`: Sticking joints begin to slip.
 - `"stops_turning"`: A hinge with friction stops turning.
@@ -306,6 +310,7 @@ EndKind = Literal[
     "finished",
     "travel_limit",
     "overlap_vanished",
+    "beside_face",
     "reaction_limit",
     "user_event",
     "no_such_branch",
@@ -324,6 +329,7 @@ EndKind = Literal[
 - `"finished"`: The requested time has been reached.
 - `"travel_limit"`: A joint reaches a limit of its travel.
 - `"overlap_vanished"`: A block leaves its guide.
+- `"beside_face"`: A contact that was open reaches the line of its face beyond the ends of the face.
 - `"reaction_limit"`: A normal force reaches its limit.
 - `"user_event"`: An event of the model that stops the motion.
 - `"no_such_branch"`: The requested branch does not exist.

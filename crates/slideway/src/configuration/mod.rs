@@ -38,7 +38,9 @@ pub(crate) use standing::{NO_ACCELERATION, staying};
 use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, length, rot90};
+use crate::mechanism::{
+    Attachment, Contact, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, length, rot90,
+};
 use crate::model::{CarriedBy, Round, SliderKind};
 use crate::progress::{Callback, Progress};
 use nalgebra::Vector2;
@@ -285,12 +287,21 @@ impl<T: Real> Configuration<T> {
     pub fn contact(&self, mechanism: &Mechanism<T>, id: ContactId) -> ContactGeometry<T> {
         let contact = &mechanism.contacts[id.index()];
         let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
-        let tangent = self.tangent(mechanism, slider);
         let frame = match contact.carried_by {
             CarriedBy::Block => slider.block,
             CarriedBy::Guide => slider.guide,
         };
-        let drawn = slider.at + slider.tangent * contact.offset;
+        self.touching(mechanism, slider, (frame, contact.position(slider)))
+    }
+
+    /// A contact of a sliding joint at a place of the drawing that moves with a frame.
+    pub(crate) fn touching(
+        &self,
+        mechanism: &Mechanism<T>,
+        slider: &Slider<T>,
+        (frame, drawn): (Frame, Vector2<T>),
+    ) -> ContactGeometry<T> {
+        let tangent = self.tangent(mechanism, slider);
         let point = self.position(mechanism, &Attachment { frame, position: drawn });
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
         let velocity_at_point = tangent.dot(&relative);
@@ -317,23 +328,33 @@ impl<T: Real> Configuration<T> {
         mechanism: &'a Mechanism<T>,
         slider: &'a Slider<T>,
     ) -> impl Iterator<Item = [T; 2]> + 'a {
-        slider.apart.iter().map(|&(position, drawn)| {
-            let normal = rot90(self.tangent(mechanism, slider));
-            let place = self.position(mechanism, &Attachment { frame: slider.block, position });
-            let opposite = self.position(mechanism, &Attachment { frame: slider.guide, position });
-            let moved = match &slider.round {
-                None => normal.dot(&(place - opposite)),
-                Some(round) => {
-                    let [block, centre] = round_ends(slider, round);
-                    let distance = |from: Vector2<T>, to: Vector2<T>| length(to - from);
-                    let now = distance(self.position(mechanism, &centre), place);
-                    let change = now - distance(centre.position, block.position);
-                    if round.inside { -change } else { change }
-                }
-            };
-            let relative = self.velocity_at(slider.block, place) - self.velocity_at(slider.guide, place);
-            [drawn + moved, normal.dot(&relative)]
-        })
+        slider.apart.iter().map(|contact| self.gap_at(mechanism, slider, contact))
+    }
+
+    /// The gap of a contact that may lift off (m), and its rate (m/s).
+    pub(crate) fn gap(&self, mechanism: &Mechanism<T>, id: ContactId) -> [T; 2] {
+        let contact = &mechanism.contacts[id.index()];
+        let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
+        self.gap_at(mechanism, slider, contact)
+    }
+
+    fn gap_at(&self, mechanism: &Mechanism<T>, slider: &Slider<T>, contact: &Contact<T>) -> [T; 2] {
+        let position = contact.position(slider);
+        let normal = rot90(self.tangent(mechanism, slider));
+        let place = self.position(mechanism, &Attachment { frame: slider.block, position });
+        let opposite = self.position(mechanism, &Attachment { frame: slider.guide, position });
+        let moved = match &slider.round {
+            None => normal.dot(&(place - opposite)),
+            Some(round) => {
+                let [block, centre] = round_ends(slider, round);
+                let distance = |from: Vector2<T>, to: Vector2<T>| length(to - from);
+                let now = distance(self.position(mechanism, &centre), place);
+                let change = now - distance(centre.position, block.position);
+                if round.inside { -change } else { change }
+            }
+        };
+        let relative = self.velocity_at(slider.block, place) - self.velocity_at(slider.guide, place);
+        [contact.gap + moved, normal.dot(&relative)]
     }
 
     /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu

@@ -32,7 +32,7 @@ use crate::configuration::{Configuration, ContactGeometry, motion_in_words, move
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{JointKind, Load, Mechanism, Slider, rot90};
+use crate::mechanism::{Contact, JointKind, Load, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
@@ -406,6 +406,18 @@ impl SlidingRow {
     /// The row of a sliding joint in a configuration.
     pub(crate) fn new(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Self {
         Self(rows::sliding(mechanism, configuration, slider))
+    }
+
+    /// The row of the acceleration of the gap of a contact that is apart from its face.
+    pub(crate) fn of_gap(
+        mechanism: &Mechanism,
+        configuration: &Configuration,
+        (slider, contact): (&Slider, &Contact),
+    ) -> Self {
+        let mut row = ConstraintRow::empty();
+        let geometry = configuration.touching(mechanism, slider, (slider.block, contact.position(slider)));
+        row.normal(mechanism, configuration, contact.joint, &geometry);
+        Self(row)
     }
 
     /// Returns the contribution of these changes of the unknowns to the acceleration (m/s^2), or to the

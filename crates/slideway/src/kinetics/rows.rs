@@ -122,7 +122,7 @@ impl<T: Real> ConstraintRow<T> {
     ///
     /// A contact that is carried by the guide stays on a line of the block; block and guide turn together
     /// there, so that the row is the same.
-    fn normal(
+    pub(super) fn normal(
         &mut self,
         mechanism: &Mechanism<T>,
         configuration: &Configuration<T>,

@@ -181,38 +181,9 @@ impl<T: Real> Evaluation<'_, T> {
             if slider.kind == SliderKind::Block && corner.is_zero() { &[0.5, -0.5] } else { &[0.0] };
         let first = contacts.len();
         for (index, contact) in slider.contacts.iter().enumerate() {
-            let face = contact
-                .face
-                .map(|Face { is_positive, other }| Face { is_positive, other: ContactId(first + other) });
             let place = contact.face.filter(|face| !face.is_positive).map_or(index, |face| face.other);
-            let of_length = || T::exactly(offsets.get(place).copied().unwrap_or(0.0)) * length;
-            // Each face of a press fit has half of it.
-            let part = T::exactly(if face.is_some() { 0.5 } else { 1.0 });
-            contacts.push(Contact {
-                name: contact.name.clone(),
-                joint,
-                offset: contact.offset.map_or_else(of_length, |offset| self.value(offset)),
-                carried_by: contact.carried_by,
-                mu: contact.mu.map(|mu| self.value(mu)),
-                law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),
-                mu_static: contact.mu_static.map(|mu| self.value(mu)),
-                preload: contact
-                    .preload
-                    .map(|preload| preload.map_or(T::zero(), |preload| part * self.value(preload))),
-                preload_line: if face.is_some() { PreloadLine::Centre } else { contact.preload_line },
-                stiffness: contact.stiffness.map(|stiffness| self.value(stiffness)),
-                play: contact.play.map_or(T::zero(), |play| self.value(play)),
-                misalignment: contact
-                    .misalignment
-                    .filter(|formula| !self.model.formula(*formula).moves())
-                    .map_or(T::zero(), |misalignment| self.value(misalignment)),
-                misalignment_law: contact.misalignment.filter(|formula| self.model.formula(*formula).moves()),
-                pad: contact.pad.map(|pad| {
-                    [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]
-                }),
-                face,
-                opens: contact.opens,
-            });
+            let offset = T::exactly(offsets.get(place).copied().unwrap_or(0.0)) * length;
+            contacts.push(self.contact((contact, joint), first, [offset, length]));
         }
         let tangent = self.direction(&slider.along);
         let at = self.vector(slider.at) + tangent * corner;
@@ -230,7 +201,7 @@ impl<T: Real> Evaluation<'_, T> {
                 radius: self.value(round.radius),
                 inside: round.inside,
             }),
-            apart: self.apart(slider, (at, tangent), length),
+            apart: self.apart(slider, joint, length),
             sticks: slider.sticks,
             around: slider.around,
             travel: face.or(slider.travel.map(|travel| travel.map(|limit| self.value(limit)))),
@@ -252,23 +223,61 @@ impl<T: Real> Evaluation<'_, T> {
         slider.has_ends.then_some([from + half, to - half])
     }
 
-    /// The corners of a block, or the centre of a disc, that are apart from their face, each with the gap in the drawing.
-    fn apart(
+    /// A contact, with its distance from the place of the block and the length of the joint; the first of the joint has a
+    /// number.
+    fn contact(
         &self,
-        slider: &model::Slider,
-        (at, tangent): (Vector2<T>, Vector2<T>),
-        length: T,
-    ) -> Vec<(Vector2<T>, T)> {
-        let gap = self.gap(slider).unwrap_or(T::zero());
-        let along = |way: T| (at + tangent * way, gap);
-        let half = length / T::exactly(2.0);
-        match slider.touches {
-            Touches::All => Vec::new(),
-            Touches::Front => vec![along(-length)],
-            Touches::Rear => vec![along(length)],
-            Touches::Nothing if length.is_zero() => vec![along(T::zero())],
-            Touches::Nothing => vec![along(half), along(-half)],
+        (contact, joint): (&model::Contact, JointId),
+        first: usize,
+        [offset, length]: [T; 2],
+    ) -> Contact<T> {
+        let face = contact
+            .face
+            .map(|Face { is_positive, other }| Face { is_positive, other: ContactId(first + other) });
+        // Each face of a press fit has half of it.
+        let part = T::exactly(if face.is_some() { 0.5 } else { 1.0 });
+        Contact {
+            name: contact.name.clone(),
+            joint,
+            offset: contact.offset.map_or(offset, |offset| self.value(offset)),
+            carried_by: contact.carried_by,
+            mu: contact.mu.map(|mu| self.value(mu)),
+            law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),
+            mu_static: contact.mu_static.map(|mu| self.value(mu)),
+            preload: contact
+                .preload
+                .map(|preload| preload.map_or(T::zero(), |preload| part * self.value(preload))),
+            preload_line: if face.is_some() { PreloadLine::Centre } else { contact.preload_line },
+            stiffness: contact.stiffness.map(|stiffness| self.value(stiffness)),
+            play: contact.play.map_or(T::zero(), |play| self.value(play)),
+            misalignment: contact
+                .misalignment
+                .filter(|formula| !self.model.formula(*formula).moves())
+                .map_or(T::zero(), |misalignment| self.value(misalignment)),
+            misalignment_law: contact.misalignment.filter(|formula| self.model.formula(*formula).moves()),
+            pad: contact
+                .pad
+                .map(|pad| [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]),
+            face,
+            opens: contact.opens,
+            gap: T::zero(),
         }
+    }
+
+    /// The contacts at the corners of a block, or at a disc, that are apart from their face.
+    fn apart(&self, slider: &model::Slider, joint: JointId, length: T) -> Vec<Contact<T>> {
+        let gap = self.gap(slider).unwrap_or(T::zero());
+        let half = length / T::exactly(2.0);
+        let offsets = match slider.touches {
+            Touches::All => [T::zero(); 2],
+            Touches::Front => [-length; 2],
+            Touches::Rear => [length; 2],
+            Touches::Nothing => [half, -half],
+        };
+        let contacts = slider.apart.iter().zip(offsets);
+        contacts
+            .map(|(contact, offset)| Contact { gap, ..self.contact((contact, joint), 0, [offset, length]) })
+            .collect()
     }
 
     /// How far a block is from the face that the drawing shows (m); none where the face follows from the block.

@@ -150,8 +150,8 @@ pub struct Slider<T = f64> {
     pub height: T,
     /// The round face of the guide in the drawing, if it is not straight.
     pub round: Option<Round<T>>,
-    /// The corners, or the centre of a disc, that are apart from their face in the state, each with its gap in the drawing (m).
-    pub apart: Vec<(Vector2<T>, T)>,
+    /// The contacts at corners, or at a disc, that are apart from their face in the state.
+    pub apart: Vec<Contact<T>>,
     /// Whether it does not slip in the state, which leaves a motion less to the coordinates; what it does then is decided by the
     /// forces, as for any contact at rest.
     pub sticks: bool,
@@ -205,6 +205,8 @@ pub struct Contact<T = f64> {
     /// Whether it lifts off its face in place of pressing another one; with it open the mode problem has what is
     /// a negative normal force of others.
     pub opens: bool,
+    /// Its gap in the drawing (m): zero, unless it is apart from its face from the start.
+    pub gap: T,
 }
 
 impl Contact {
@@ -223,6 +225,15 @@ impl<T: Real> Contact<T> {
     /// Whether friction or preload may hold it at rest.
     pub(crate) fn may_hold(&self) -> bool {
         !self.is_frictionless() || self.mu_static != [T::zero(); 2]
+    }
+
+    /// Where it is in the drawing.
+    pub fn position(&self, slider: &Slider<T>) -> Vector2<T> {
+        slider.at + slider.tangent * self.offset
+    }
+
+    fn multiply_friction(&mut self, factor: T) {
+        (self.mu, self.mu_static) = (self.mu.map(|mu| mu * factor), self.mu_static.map(|mu| mu * factor));
     }
 
     /// Whether its kinetic friction depends on its sliding speed.
@@ -682,6 +693,11 @@ impl<T: Real> Mechanism<T> {
     /// Multiplies all coefficients of friction, kinetic and static, and the radii of friction circles that are given.
     pub(crate) fn multiply_friction(&mut self, factor: T) {
         self.multiply_friction_of_contacts(|_| factor);
+        for joint in &mut self.joints {
+            if let JointKind::Slider(slider) = &mut joint.kind {
+                slider.apart.iter_mut().for_each(|contact| contact.multiply_friction(factor));
+            }
+        }
         for circle in &mut self.friction_circles {
             *circle = circle.times(factor);
         }
@@ -691,8 +707,7 @@ impl<T: Real> Mechanism<T> {
     /// Multiplies the coefficients of friction of each contact as they are at its sliding speed, by a factor of its own.
     pub(crate) fn multiply_friction_of_contacts(&mut self, factor: impl Fn(usize) -> T) {
         for (k, contact) in self.contacts.iter_mut().enumerate() {
-            contact.mu = contact.mu.map(|mu| mu * factor(k));
-            contact.mu_static = contact.mu_static.map(|mu| mu * factor(k));
+            contact.multiply_friction(factor(k));
         }
     }
 

@@ -73,6 +73,47 @@ impl Mechanism {
         }
     }
 
+    /// The mechanism with the contacts that are apart, too, behind all others: what moves may touch with any of them.
+    pub(crate) fn with_all_contacts(&self) -> Self {
+        let mut whole = self.clone();
+        for joint in &mut whole.joints {
+            let JointKind::Slider(slider) = &mut joint.kind else { continue };
+            for contact in std::mem::take(&mut slider.apart) {
+                slider.contacts.push(ContactId(whole.contacts.len()));
+                whole.contacts.push(contact);
+            }
+            // The front one first.
+            let offset = |contact: &ContactId| whole.contacts[contact.index()].offset;
+            slider.contacts.sort_by(|one, other| offset(other).total_cmp(&offset(one)));
+        }
+        whole
+    }
+
+    /// The mechanism while these contacts are open, in their order: those that still touch are apart from their faces in it, the
+    /// others are not there, and a block that is left with one corner touches with that.
+    pub(crate) fn touching(&self, open: &[usize], touch: impl Fn(usize) -> bool) -> Self {
+        let mut left = self.without_contacts(open);
+        for &k in open.iter().filter(|&&k| touch(k)) {
+            let contact = &self.contacts[k];
+            if let JointKind::Slider(slider) = &mut left.joints[contact.joint.index()].kind {
+                slider.apart.push(contact.clone());
+            }
+        }
+        for joint in &mut left.joints {
+            let JointKind::Slider(slider) = &mut joint.kind else { continue };
+            let [corner] = slider.contacts[..] else { continue };
+            if !left.contacts[corner.index()].opens {
+                continue;
+            }
+            let moved = std::mem::replace(&mut left.contacts[corner.index()].offset, 0.0);
+            slider.apart.iter_mut().for_each(|contact| contact.offset -= moved);
+            slider.at += slider.tangent * moved;
+            slider.travel = None;
+            slider.kind = SliderKind::Pin;
+        }
+        left
+    }
+
     /// Refuses blocks that are not on their faces in the drawing, given how far each is off.
     ///
     /// # Errors
@@ -130,6 +171,19 @@ impl<T: Real> Mechanism<T> {
         let Some(first) = apart.first() else { return Ok(()) };
         let contacts = apart.iter().map(|joint| joint.name.to_string()).collect();
         Err(Fault::new(FaultKind::OneSided { question, contacts }, first.place.clone()).into())
+    }
+
+    /// Refuses discs at rest in motions, as they may roll.
+    ///
+    /// # Errors
+    /// A fault that names them, if there are some.
+    pub(crate) fn check_no_disc_at_rest(&self, rests: impl Fn(usize) -> bool) -> Result<(), Faults> {
+        let is_disc = |contact: &ContactId| {
+            self.slider(self.contacts[contact.index()].joint).is_some_and(Slider::is_disc)
+        };
+        let discs: Vec<ContactId> =
+            self.one_sided().filter(|contact| rests(contact.index()) && is_disc(contact)).collect();
+        self.refuse(&discs, |contacts| FaultKind::DiscAtRest { contacts })
     }
 
     fn refuse(

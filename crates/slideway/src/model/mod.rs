@@ -273,6 +273,8 @@ pub struct Slider {
     /// Its contacts: front, rear and further supports of a block slider, else the only one; then the negative faces
     /// of press fits.
     pub contacts: Vec<Contact>,
+    /// Those that do not touch in the state to be solved.
+    pub apart: Vec<Contact>,
 }
 
 /// A direction in the drawing.

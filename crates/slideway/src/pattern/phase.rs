@@ -16,21 +16,30 @@ pub struct Phase {
 }
 
 impl Phase {
-    /// One character for each contact: `+` or `-` for the sign of its normal force, `0` in its preload gap,
+    /// One character for each contact: `+` or `-` for the sign of its normal force, `0` in its preload gap or open,
     /// `=` where its joint sticks; then one for each hinge with friction: `+` or `-` for the sign of the angular
     /// velocity of its first body against the second, `=` where it sticks.
     pub fn pattern(&self, mechanism: &Mechanism) -> String {
         let sliders = sliding_joints(mechanism);
-        let contacts = mechanism.contacts.iter().zip(&self.contacts);
-        let sign = |(contact, phase): (&crate::mechanism::Contact, &ContactPhase)| {
-            let joint = sliders.iter().position(|joint| *joint == contact.joint);
-            if joint.is_some_and(|joint| self.joints[joint] == JointPhase::Sticking) {
-                '='
-            } else {
-                phase.symbol()
-            }
+        let sticks = |k: usize| {
+            let joint = sliders.iter().position(|joint| *joint == mechanism.contacts[k].joint);
+            joint.is_some_and(|joint| self.joints[joint] == JointPhase::Sticking)
         };
+        let sign = |k: usize| {
+            if sticks(k) && !self.is_open(mechanism, k) { '=' } else { self.contacts[k].symbol() }
+        };
+        let contacts = 0..self.contacts.len();
         contacts.map(sign).chain(self.hinges.iter().map(|hinge| hinge.state.symbol())).collect()
+    }
+
+    /// Whether a contact that may lift off is open.
+    pub(crate) fn is_open(&self, mechanism: &Mechanism, contact: usize) -> bool {
+        mechanism.contacts[contact].opens && self.contacts[contact] == ContactPhase::PreloadGap
+    }
+
+    /// The contacts that may lift off and are open, by their numbers.
+    pub(crate) fn open(&self, mechanism: &Mechanism) -> Vec<usize> {
+        (0..self.contacts.len()).filter(|&k| self.is_open(mechanism, k)).collect()
     }
 
     /// Whether every joint, contact and hinge does what it does in another phase.

@@ -16,7 +16,6 @@ use slideway::ids::{ContactId, Frame};
 use slideway::limits::{LimitsOptions, Quantity, limits, limits_with_curves};
 use slideway::map::{MapOptions, map};
 use slideway::model::{Model, Settings};
-use slideway::motion::{SimulateOptions, simulate};
 use slideway::report::{Proof, Solution, SolveReport, Status, Verdict};
 use slideway::standstill::{HoldOptions, hold};
 use slideway::sweep::{Rows, Sweep, SweepOptions};
@@ -414,12 +413,11 @@ fn what_is_not_known_yet_is_refused() {
         assert!(matches!(kinds.as_slice(), [FaultKind::OneSided { .. }]), "{faults}");
         assert!(kinds[0].hint().is_some());
     };
-    is_refused(simulate(&model, &SimulateOptions::new(1.0)).unwrap_err());
     let options = LimitsOptions::new("mu=0..1".parse().unwrap()).max_reaction(100.0);
     is_refused(limits(&model, &options).unwrap_err());
     let questions = check(&model).unwrap().questions;
     let ready = questions.iter().filter(|question| question.ready);
-    assert_eq!(ready.map(|question| question.name).collect::<Vec<_>>(), ["solve", "hold"]);
+    assert_eq!(ready.map(|question| question.name).collect::<Vec<_>>(), ["solve", "hold", "simulate"]);
 }
 
 /// The only fault of a text.

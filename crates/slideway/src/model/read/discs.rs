@@ -16,7 +16,7 @@ impl Reader<'_> {
         let friction = self.friction(contact, false, name, span);
         let mut contacts = vec![self.contact(friction, name.to_owned(), name, span)];
         let touches = if discs.closed == Some(false) { Touches::Nothing } else { Touches::All };
-        self.open(&mut contacts, touches);
+        let apart = self.open(&mut contacts, touches);
         let [block, guide] = discs.centres.each_ref().map(|centre| self.attachment(centre));
         let [radius, guide_radius] = discs.radii.each_ref().map(|radius| {
             let wanted = Wanted::constant(format!("a radius of {name}"), Dimension::LENGTH);
@@ -41,6 +41,7 @@ impl Reader<'_> {
             has_ends: false,
             stops: [None; 2],
             contacts,
+            apart,
         }
     }
 }

@@ -83,9 +83,7 @@ impl Reader<'_> {
             SliderKind::Guided | SliderKind::Pin => vec![self.contact(all, name.to_owned(), name, span)],
         };
         let touches = touches(joint);
-        if *opens {
-            self.open(&mut contacts, touches);
-        }
+        let apart = if *opens { self.open(&mut contacts, touches) } else { Vec::new() };
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
         Slider {
             kind: *kind,
@@ -104,6 +102,7 @@ impl Reader<'_> {
             has_ends: joint.face.is_some(),
             stops: self.stops(joint, name, span),
             contacts,
+            apart,
         }
     }
 
@@ -147,22 +146,23 @@ impl Reader<'_> {
         contacts
     }
 
-    /// Makes contacts that may lift off of these, and leaves those that touch.
-    pub(super) fn open(&self, contacts: &mut Vec<Contact>, touches: Touches) {
-        let mut end = 0;
-        contacts.retain(|_| {
-            end += 1;
-            match touches {
-                Touches::All => true,
-                Touches::Front => end == 1,
-                Touches::Rear => end == 2,
-                Touches::Nothing => false,
-            }
-        });
-        for contact in contacts {
+    /// Makes contacts that may lift off of these, leaves those that touch, and returns the others.
+    pub(super) fn open(&self, contacts: &mut Vec<Contact>, touches: Touches) -> Vec<Contact> {
+        for contact in &mut *contacts {
             // Without a second face there is no friction at it.
             (contact.opens, contact.mu[1], contact.mu_static[1]) = (true, self.zero, self.zero);
         }
+        let mut end = 0;
+        let leaves = |_: &mut Contact| {
+            end += 1;
+            match touches {
+                Touches::All => false,
+                Touches::Front => end != 1,
+                Touches::Rear => end != 2,
+                Touches::Nothing => true,
+            }
+        };
+        contacts.extract_if(.., leaves).collect()
     }
 
     /// Whether a joint does not slip, which only what touches can.

@@ -217,7 +217,7 @@ pub(super) fn concerns_sticking((instant, phase): (&Instant<'_>, &Phase), subjec
             instant.joint_of(k).is_some_and(|joint| phase.joints[joint] == JointPhase::Sticking)
         }
         Subject::Circle(_) => true,
-        Subject::Share(_) | Subject::Slip(_) => false,
+        Subject::Share(_) | Subject::Slip(_) | Subject::Gap(_) => false,
     }
 }
 

@@ -43,7 +43,13 @@ impl Instant<'_> {
 /// so that `y` with `|N_j(0)| + sum_k |eta_jk| (mu_k y_k + F_k0) <= y_j` bounds all `|N_j|` (theory, section
 /// 4).
 fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
-    let options = |j: usize| ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j)));
+    let options = |j: usize| {
+        if instant.mechanism.contacts[j].opens {
+            ContactPhase::CLOSED
+        } else {
+            ContactPhase::options(instant.mechanism.preload_jumps(ContactId(j)))
+        }
+    };
     let mut sides: Vec<Vec<ContactPhase>> =
         (0..instant.mechanism.contacts.len()).map(|j| options(j).to_vec()).collect();
     // A stop can push with any force, and what is known of the forces of hinges is their couples.
@@ -53,6 +59,9 @@ fn possible_sides(instant: &Instant<'_>) -> Vec<Vec<ContactPhase>> {
     for group in instant.groups.iter().filter(is_free) {
         let Some(changes) = greatest_changes(instant, &group.contacts) else { continue };
         for (&j, change) in group.contacts.iter().zip(&changes) {
+            if instant.mechanism.contacts[j].opens {
+                continue;
+            }
             let normal = instant.outputs.base[j];
             if normal.abs() > change + BOUNDARY {
                 sides[j] = vec![options(j)[usize::from(normal < 0.0)]];

@@ -165,6 +165,7 @@ fn limit(instant: &Instant<'_>, subject: Decisive) -> PhaseBound {
         Decisive::One(Subject::Share(k)) => PhaseBound::PreloadShare(ContactId(k)),
         Decisive::One(Subject::Couple(k)) => PhaseBound::Couple(ContactId(k)),
         Decisive::One(Subject::Friction(_) | Subject::Circle(_)) | Decisive::Open(_) => PhaseBound::Sticking,
+        Decisive::One(Subject::Gap(joint)) => PhaseBound::Gap(instant.id_of(joint).unwrap_or(JointId(joint))),
         Decisive::One(Subject::Slip(joint)) => {
             PhaseBound::Slip(instant.id_of(joint).unwrap_or(JointId(joint)))
         }
@@ -214,7 +215,9 @@ impl Part {
     /// Its own of these slacks.
     fn slacks(&self, instant: &Instant<'_>, all: &[Slack]) -> Vec<Slack> {
         let member = |slack: &Slack| match slack.subject {
-            Decisive::One(Subject::Slip(number)) | Decisive::Open(number) => Some(number),
+            Decisive::One(Subject::Slip(number) | Subject::Gap(number)) | Decisive::Open(number) => {
+                Some(number)
+            }
             Decisive::One(Subject::Circle(hinge)) => Some(instant.number_of(hinge)),
             Decisive::One(
                 Subject::Pressure(k) | Subject::Share(k) | Subject::Couple(k) | Subject::Friction(k),

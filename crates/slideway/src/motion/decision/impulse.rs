@@ -3,6 +3,7 @@
 
 use super::assessment::{Assessment, PRESSED, assess_group, sliding_sides, with_sides};
 use super::instant::Instant;
+use super::joints::SlidingJoint;
 use super::outputs::{Group, Outputs};
 use super::successors::combinations;
 use super::system::Question;
@@ -46,6 +47,33 @@ impl<'s> Impulses<'s> {
             members().for_each(|number| speeds[number] = greatest);
         }
         Self { instant, outputs: instant.impulse_outputs(), speeds, work }
+    }
+
+    /// Counts velocities of at least this magnitude, too, in what velocities are rounding beside (m/s).
+    pub(super) fn count_velocities_of(&mut self, speed: f64) {
+        let greatest = self.speeds.iter().copied().fold(speed, f64::max);
+        self.speeds.fill(greatest);
+    }
+
+    /// Puts jumps without friction in the place of what loads are otherwise, and to the changes of gaps their rates before;
+    /// these are given by joint and number (m/s).
+    pub(super) fn put_base(&mut self, jumps: &DVector<f64>, rate: impl Fn(usize, usize) -> f64) {
+        let instant = self.instant;
+        self.outputs.base = instant.response(jumps);
+        let contacts = instant.mechanism.contacts.len();
+        let couples = instant.couple_outputs().map(|(row, joint)| (row, joint.id)).collect::<Vec<_>>();
+        for joint in 0..instant.joints.len() {
+            let SlidingJoint { contacts: own, gaps, id, units, .. } = &instant.joints[joint];
+            let couple = couples.iter().filter(|(_, other)| other == id).map(|(row, _)| *row);
+            let rows = own.iter().copied().chain([contacts + joint]).chain(couple);
+            for row in rows {
+                self.outputs.base[row] /= self.time(joint);
+            }
+            for (row, (number, _)) in instant.gap_outputs(joint).zip(gaps) {
+                let before = rate(joint, *number) / units.acceleration;
+                self.outputs.base[row] = (self.outputs.base[row] + before) / self.time(joint);
+            }
+        }
     }
 
     /// The velocities of the sliding joints and hinges with friction (m/s), exactly zero where they are only rounding.

@@ -1,6 +1,8 @@
 //! A mechanism at one instant: how normal forces, sliding accelerations and couples respond to friction.
 
-use super::joints::{RoughHinge, SlidingJoint, rough_hinges, set_units, sliding_joints};
+use super::joints::{
+    RoughHinge, SlidingJoint, put_gaps, rough_hinges, set_units, sliding_joints, touching_gaps,
+};
 use super::outputs::{Group, Outputs, Rubbing, groups, outputs};
 use super::scale::{Scale, rounding, scale};
 use super::units::Units;
@@ -13,6 +15,7 @@ use crate::mechanism::{Contact, Mechanism, body_of};
 use crate::pattern::{Law, Phase};
 use nalgebra::DVector;
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// A mechanism at one instant.
 #[derive(Debug, Clone)]
@@ -57,7 +60,8 @@ impl<'m> Instant<'m> {
     /// Whatever [`KineticEquations::new`] refuses, and friction without a value.
     pub(super) fn new(mechanism: &'m Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let equations = KineticEquations::new(mechanism, configuration)?;
-        Self::of(mechanism, (configuration, equations), Least::Now(rounding))
+        let touching = touching_gaps(mechanism, configuration);
+        Self::of(mechanism, (configuration, equations), (Least::Now(rounding), touching))
     }
 
     /// The same in units of the forces that will arise: those of the instant may vanish, and then their
@@ -70,10 +74,10 @@ impl<'m> Instant<'m> {
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
         mechanism.check_no_press_fit("what follows in time")?;
-        mechanism.check_no_one_sided("what follows in time")?;
         mechanism.check_determinate("what follows in time")?;
         let equations = KineticEquations::new(mechanism, configuration)?;
-        Self::of(mechanism, (configuration, equations), Least::Now(scale))
+        let touching = touching_gaps(mechanism, configuration);
+        Self::of(mechanism, (configuration, equations), (Least::Now(scale), touching))
     }
 
     /// The same in units of at least what rounding leaves of forces on each body (N): where all forces vanish at once, as
@@ -102,7 +106,8 @@ impl<'m> Instant<'m> {
         let rounding = std::iter::once(whole).chain(of_joints);
         let least: Vec<f64> =
             self.least_forces.iter().zip(rounding).map(|(least, rounding)| least.max(rounding)).collect();
-        Self::of(self.mechanism, (configuration, self.equations), Least::Before(&least))
+        let touching = self.touching();
+        Self::of(self.mechanism, (configuration, self.equations), (Least::Before(&least), touching))
     }
 
     /// The mechanism a little later, with the same least units and the same difference from what the loads
@@ -113,18 +118,24 @@ impl<'m> Instant<'m> {
     pub(super) fn later(&self, configuration: &Configuration) -> Result<Self, Faults> {
         let equations = self.equations.near(self.mechanism, configuration)?;
         let least = Least::Before(&self.least_forces);
-        let mut later = Self::of(self.mechanism, (configuration, equations), least)?;
+        let mut later = Self::of(self.mechanism, (configuration, equations), (least, self.touching()))?;
         later.change_base(&self.shift);
         Ok(later)
+    }
+
+    /// Of each sliding joint the contacts that are apart, whose gaps were zero at first.
+    fn touching(&self) -> Vec<Vec<usize>> {
+        self.joints.iter().map(|joint| joint.gaps.iter().map(|(number, _)| *number).collect()).collect()
     }
 
     fn of(
         mechanism: &'m Mechanism,
         (configuration, equations): (&Configuration, KineticEquations),
-        least: Least<'_>,
+        (least, touching): (Least<'_>, Vec<Vec<usize>>),
     ) -> Result<Self, Faults> {
         let influence = Influence::new(&equations);
         let mut joints = sliding_joints(mechanism, configuration, &equations);
+        put_gaps(&mut joints, &touching, (mechanism, configuration));
         let (now, mut least_forces) = match least {
             Least::Now(scale) => (Some((configuration, scale)), Vec::new()),
             Least::Before(forces) => (None, forces.to_vec()),
@@ -266,6 +277,14 @@ impl<'m> Instant<'m> {
     pub(super) fn id_of(&self, rubbing: usize) -> Option<JointId> {
         let hinge = || self.hinges.get(rubbing - self.joints.len()).map(|hinge| hinge.id);
         self.joints.get(rubbing).map_or_else(hinge, |joint| Some(joint.id))
+    }
+
+    /// The index of the acceleration of each gap of a sliding joint among the outputs.
+    pub(super) fn gap_outputs(&self, joint: usize) -> Range<usize> {
+        let gaps = |joints: &[SlidingJoint]| joints.iter().map(|joint| joint.gaps.len()).sum::<usize>();
+        let couples = self.joints.iter().filter(|joint| joint.couple.is_some()).count();
+        let first = self.mechanism.contacts.len() + self.joints.len() + couples + gaps(&self.joints[..joint]);
+        first..first + self.joints[joint].gaps.len()
     }
 
     /// The index of each guided slider's couple among the outputs.

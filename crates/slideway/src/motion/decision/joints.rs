@@ -26,6 +26,9 @@ pub(super) struct SlidingJoint {
     pub(super) couple: Option<GuidedCouple>,
     /// Its sliding acceleration.
     pub(super) row: SlidingRow,
+    /// Of its contacts that are apart from their face those whose gaps are zero, by their numbers among these: the accelerations
+    /// of these gaps.
+    pub(super) gaps: Vec<(usize, SlidingRow)>,
     /// Its sliding velocity (m/s).
     pub(super) velocity: f64,
     /// Whether friction or an end stop could hold it.
@@ -125,6 +128,7 @@ pub(super) fn sliding_joints(
             contacts,
             couple: place.map(|unknown| GuidedCouple { unknown, half_length: slider.greatest_couple(1.0) }),
             row: SlidingRow::new(mechanism, configuration, slider),
+            gaps: Vec::new(),
             velocity: first.unwrap_or(0.0),
             has_friction: has_friction || stop != 0.0,
             stop,
@@ -132,6 +136,36 @@ pub(super) fn sliding_joints(
         })
     };
     mechanism.joints.iter().enumerate().filter_map(one).collect()
+}
+
+/// Of each sliding joint the contacts that are apart from their face in the mechanism, but whose gaps are zero, by their numbers
+/// among these.
+pub(super) fn touching_gaps(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vec<usize>> {
+    let of_joint = |joint: &crate::mechanism::Joint| match &joint.kind {
+        JointKind::Slider(slider) => {
+            let gaps = configuration.gaps(mechanism, slider).enumerate();
+            let touches = |(_, [gap, _]): &(usize, [f64; 2])| *gap <= TOUCHES * mechanism.size;
+            Some(gaps.filter(touches).map(|(number, _)| number).collect())
+        }
+        JointKind::Hinge(_) => None,
+    };
+    mechanism.joints.iter().filter_map(of_joint).collect()
+}
+
+/// Puts the accelerations of these gaps into the sliding joints.
+pub(super) fn put_gaps(
+    joints: &mut [SlidingJoint],
+    touching: &[Vec<usize>],
+    (mechanism, configuration): (&Mechanism, &Configuration),
+) {
+    for (joint, numbers) in joints.iter_mut().zip(touching) {
+        let Some(slider) = mechanism.slider(joint.id) else { continue };
+        let row = |number: &usize| {
+            let contact = &slider.apart[*number];
+            (*number, SlidingRow::of_gap(mechanism, configuration, (slider, contact)))
+        };
+        joint.gaps = numbers.iter().map(row).collect();
+    }
 }
 
 /// The end stop that a joint touches: 1 at its greatest displacement, -1 at its least, otherwise 0.

@@ -51,11 +51,11 @@
 //! sticking and sliding joints of a group, `assessment.rs` the slacks of a phase, and `growth.rs` whether
 //! they grow along its motion. `parts.rs` lists what each group can do, in order of preference, and
 //! `successors.rs` combines the parts. The other questions are in `sticking.rs`, `determined.rs` (normal
-//! forces that statics determines), `jam.rs` and `impact/` (end stops); the last two are based on
+//! forces that statics determines), `jam.rs` and `impact/` (end stops, faces); the last two are based on
 //! `impulse.rs`. `vanishing.rs` sets to zero what an event has found to be zero, `scale.rs` provides the
 //! units where forces vanish, `sieve.rs` quickly excludes patterns of sliding, and `holding.rs` looks ahead
 //! in time for bodies that stand still while loads change, with forces that are affine in the loads
-//! (`plan.rs`). Hinges with friction are members of the groups like sliding joints. The magnitudes of their forces enter,
+//! (`plan.rs`). `lifting.rs` tries which contacts that may lift off are open, each time with the mechanism as it touches then. Hinges with friction are members of the groups like sliding joints. The magnitudes of their forces enter,
 //! so that the equations of a pattern in which some turn are not linear and may have several solutions: `turning.rs` finds
 //! them all, as those of a block mode problem, and `system.rs` takes up each by Newton's method.
 
@@ -70,6 +70,7 @@ mod impulse;
 mod instant;
 mod jam;
 mod joints;
+mod lifting;
 mod mobility;
 mod outputs;
 mod parts;
@@ -90,8 +91,8 @@ mod vanishing;
 pub(super) use assessment::ASSESSED;
 pub(super) use determined::{DeterminedForces, determined_forces};
 pub(super) use elastic::verdict_on;
-pub(super) use impact::impact_within;
 pub use impact::{Blow, Impact, impact};
+pub(super) use impact::{Landing, impact_within, landing};
 pub use jam::{Impulse, Jam, jam};
 pub(super) use joints::{TOUCHES, relative_velocities};
 pub use rules::Outlook;
@@ -133,4 +134,6 @@ pub enum PhaseBound {
     Sticking,
     /// The acceleration of a joint that begins to slip.
     Slip(JointId),
+    /// The acceleration of a gap of a joint.
+    Gap(JointId),
 }

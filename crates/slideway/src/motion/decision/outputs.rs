@@ -1,8 +1,9 @@
-//! How normal forces, accelerations, couples and the forces of hinges respond to friction, and which joints act on
+//! How normal forces, accelerations, also of gaps, couples and the forces of hinges respond to friction, and which joints act on
 //! one another.
 
 use super::joints::{RoughHinge, SlidingJoint};
 use crate::influence::Influence;
+use crate::kinetics::SlidingRow;
 use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::motion::moving::connected::join;
@@ -34,8 +35,8 @@ impl Group {
 }
 
 /// The outputs on which decisions are based, as functions of the friction forces and of the friction couples of
-/// hinges: normal forces of the contacts, accelerations of the sliding joints, couples of the guided sliders, then of
-/// each hinge with friction its angular acceleration and its force, in units.
+/// hinges: normal forces of the contacts, accelerations of the sliding joints, couples of the guided sliders, accelerations
+/// of the gaps of the joints that are zero, then of each hinge with friction its angular acceleration and its force, in units.
 #[derive(Debug, Clone)]
 pub(super) struct Outputs {
     /// Without friction.
@@ -58,7 +59,8 @@ pub(super) struct Rubbing<'r> {
 /// One of the outputs.
 enum Output<'r> {
     Normal(usize),
-    Slide(&'r SlidingJoint),
+    /// The acceleration of sliding, or of a gap.
+    Slide(&'r SlidingRow),
     /// The couple of a guided slider, by its place among the unknowns.
     Couple(usize),
     Turn(&'r RoughHinge),
@@ -80,7 +82,10 @@ impl<'r> Rubbing<'r> {
     fn outputs(self) -> Vec<(Output<'r>, f64)> {
         let normals = self.units_of_contacts().into_iter().enumerate();
         let normals = normals.map(|(k, unit)| (Output::Normal(k), unit));
-        let slides = self.joints.iter().map(|joint| (Output::Slide(joint), joint.units.acceleration));
+        let slides = self.joints.iter().map(|joint| (Output::Slide(&joint.row), joint.units.acceleration));
+        let gaps = self.joints.iter().flat_map(|joint| {
+            joint.gaps.iter().map(|(_, row)| (Output::Slide(row), joint.units.acceleration))
+        });
         let couples = self.joints.iter().filter_map(|joint| {
             Some((Output::Couple(joint.couple?.unknown), joint.units.force * joint.units.length))
         });
@@ -89,7 +94,7 @@ impl<'r> Rubbing<'r> {
             [(Output::Turn(hinge), hinge.units.acceleration / hinge.units.length), x, y]
         };
         let hinges = self.hinges.iter().flat_map(of_hinge);
-        normals.chain(slides).chain(couples).chain(hinges).collect()
+        normals.chain(slides).chain(couples).chain(gaps).chain(hinges).collect()
     }
 
     /// The outputs for changes of all unknowns.
@@ -105,7 +110,7 @@ impl Output<'_> {
     fn change(&self, unknowns: &DVector<f64>, normals: &DVector<f64>) -> f64 {
         match self {
             Self::Normal(k) => normals[*k],
-            Self::Slide(joint) => joint.row.change(unknowns),
+            Self::Slide(row) => row.change(unknowns),
             Self::Couple(place) | Self::Force(place) => unknowns[*place],
             Self::Turn(hinge) => hinge.acceleration(unknowns),
         }
@@ -118,10 +123,13 @@ pub(super) fn groups(rubbing: Rubbing<'_>, outputs: &Outputs) -> Vec<Group> {
     let all = joints.len() + hinges.len();
     let mut parts: Vec<usize> = (0..all).collect();
     let mut couples = contacts + joints.len()..;
+    let guided = joints.iter().filter(|joint| joint.couple.is_some()).count();
+    let mut gaps = contacts + joints.len() + guided..;
     let first = outputs.base.len() - 3 * hinges.len();
     let of_joints = joints.iter().enumerate().map(|(index, joint)| {
         let couple = joint.couple.and_then(|_| couples.next());
-        joint.contacts.iter().copied().chain([contacts + index]).chain(couple).collect()
+        let gaps = gaps.by_ref().take(joint.gaps.len());
+        joint.contacts.iter().copied().chain([contacts + index]).chain(couple).chain(gaps).collect()
     });
     let of_hinges = (0..hinges.len()).map(|hinge| (first + 3 * hinge..first + 3 * hinge + 3).collect());
     let rows: Vec<Vec<usize>> = of_joints.chain(of_hinges).collect();
@@ -173,7 +181,7 @@ pub(super) fn outputs(mechanism: &Mechanism, influence: &Influence, rubbing: Rub
     };
     let normals = influence.normal_forces();
     let without_friction = |(output, unit): &(Output<'_>, f64)| match output {
-        Output::Slide(joint) => joint.row.acceleration(&influence.frictionless) / unit,
+        Output::Slide(row) => row.acceleration(&influence.frictionless) / unit,
         _ => output.change(&influence.frictionless, &normals) / unit,
     };
     let base = DVector::from_iterator(rows.len(), rows.iter().map(without_friction));

@@ -113,6 +113,7 @@ pub fn successors(
     previous: Option<&Phase>,
 ) -> Result<Successors, Faults> {
     mechanism.check_frictionless_hinges()?;
+    mechanism.check_no_one_sided("a list of what follows")?;
     let instant = Instant::looking_ahead(mechanism, configuration)?;
     instant.check_joints(stopped.len())?;
     let sign = |(joint, stopped): (&super::joints::SlidingJoint, &bool)| match joint.velocity {

@@ -31,6 +31,8 @@ pub(super) enum Subject {
     Circle(usize),
     /// A joint or hinge that begins to move, by its number among both, does so against its friction.
     Slip(usize),
+    /// A gap of a joint that is zero does not close.
+    Gap(usize),
 }
 
 /// An inequality `slack >= 0`.
@@ -358,6 +360,9 @@ impl<'s> System<'s> {
             }
         }
         for &joint in &self.group.joints {
+            for row in self.instant.gap_outputs(joint) {
+                add(Subject::Gap(joint), self.output(row));
+            }
             if let JointPhase::Sliding(sign) = self.phase.joints[joint]
                 && self.question.stopped[joint]
                 && self.instant.joints[joint].has_friction

@@ -2,6 +2,7 @@
 
 use super::holding::Holding;
 use super::jam::jam_within;
+use super::lifting::Touching;
 use super::rules::{
     Continuation, Continuations, Decisions, EventInstant, HaltingImpulse, Hold, Outlook, Resting,
 };
@@ -29,15 +30,22 @@ pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
+        if may_lift_off(instant.mechanism) {
+            return super::lifting::continuations(instant);
+        }
         continuations(instant)
     }
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
+        if may_lift_off(instant.mechanism) {
+            return super::lifting::tipping(instant);
+        }
         let found = super::continuations(instant)?;
         Ok(found.tipping.into_iter().flat_map(|tipping| tipping.joints).collect())
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+        instant.mechanism.check_no_one_sided("a jam in a motion")?;
         let rests = |number: usize| instant.sign_of(number) == 0.0;
         let found = jam_within(instant.mechanism, instant.configuration, (&rests, instant.work))?;
         let super::Jam::Stops(impulses) = found else { return Ok(None) };
@@ -55,6 +63,10 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults> {
+        if may_lift_off(mechanism) {
+            let touching = Touching::in_phase(mechanism, phase);
+            return super::sticking_margin(&touching.mechanism, configuration, &touching.part_of(phase));
+        }
         super::sticking_margin(mechanism, configuration, phase)
     }
 
@@ -64,6 +76,9 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
+        if may_lift_off(mechanism) {
+            return super::lifting::normal_forces(mechanism, configuration, phase);
+        }
         let forces = super::determined_forces(mechanism, configuration, phase)?;
         Ok(forces.contacts.into_iter().map(|[normal, _]| normal).collect())
     }
@@ -74,6 +89,10 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
+        // Which contacts are open may change while bodies rest.
+        if may_lift_off(mechanism) {
+            return Ok(None);
+        }
         // Friction of hinges is not affine in the loads: what has it is known to stay at rest if nothing changes.
         let parts = independent(mechanism);
         let circles = mechanism.friction_circles.iter();
@@ -91,6 +110,11 @@ impl Decisions for Thorough {
         let smooth = Resting { bodies: &of(false), ..resting };
         Ok(Some(Box::new(Holding::new(mechanism, configuration, smooth)?)))
     }
+}
+
+/// Whether some contacts may lift off.
+fn may_lift_off(mechanism: &Mechanism) -> bool {
+    mechanism.one_sided().next().is_some()
 }
 
 /// The phases in which a mechanism can go on.

@@ -1,6 +1,7 @@
 //! What follows the motion: phase by phase (`run.rs`), step by step within a phase (`smooth/`), and through
-//! impacts on end stops (`stop.rs`).
+//! impacts on end stops (`stop.rs`) and on faces (`landing.rs`).
 
+mod landing;
 pub(in crate::motion) mod run;
 pub(in crate::motion) mod smooth;
 pub(in crate::motion) mod stop;
@@ -48,10 +49,11 @@ pub fn simulate_with(
 ) -> Result<History, Faults> {
     check(options)?;
     mechanism.check_no_press_fit("a motion in time")?;
-    mechanism.check_no_one_sided("a motion in time")?;
+    mechanism.check_one_sided()?;
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);
+    let mechanism = &mechanism.with_all_contacts();
     never_turning(mechanism, configuration)?;
     let follow = |work: Work<'_>| Run::new((mechanism, configuration), options, decisions, work).follow();
     as_far_as_wanted(progress, follow).0

@@ -33,11 +33,11 @@ const NEAR_FOLD: f64 = 1e-4;
 pub(in crate::motion) struct Run<'a, 'm> {
     options: &'a SimulateOptions,
     decisions: &'a mut dyn Decisions,
-    smooth: Smooth<'a, 'm>,
-    phase: Option<Phase>,
+    pub(super) smooth: Smooth<'a, 'm>,
+    pub(super) phase: Option<Phase>,
     history: History,
     branchings: usize,
-    work: Work<'a>,
+    pub(super) work: Work<'a>,
 }
 
 impl<'a, 'm> Run<'a, 'm> {
@@ -198,6 +198,7 @@ impl<'a, 'm> Run<'a, 'm> {
                 (!stops).then_some(End::TravelLimit(*joint))
             }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
+            Cause::Touches(contact) if self.is_beside(*contact) => Some(End::BesideFace(*contact)),
             Cause::ReactionLimit(contact) => Some(End::ReactionLimit(*contact)),
             Cause::User(index, _) => self.options.events[*index].ends.then_some(End::UserEvent(*index)),
             _ => None,
@@ -220,7 +221,7 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Decides how the motion goes on, after impulses if it must; nothing is decided once the work is to end.
     fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
-        if self.hit(&mut causes)? {
+        if self.hit(&mut causes)? | self.land(&mut causes)? {
             previous = None;
         }
         for _ in 0..MOST_IMPULSES {
@@ -328,7 +329,7 @@ impl<'a, 'm> Run<'a, 'm> {
         Ok(true)
     }
 
-    fn note_impulse(&mut self, energy_lost: f64) {
+    pub(super) fn note_impulse(&mut self, energy_lost: f64) {
         let before = self.history.impulses.last().map_or(0.0, |loss| loss.energy);
         self.history.impulses.push(ImpulseLoss { time: self.smooth.time, energy: before + energy_lost });
     }
@@ -378,10 +379,7 @@ impl<'a, 'm> Run<'a, 'm> {
     /// The velocities of all sliding joints, then of the hinges with friction (m/s or rad/s).
     fn velocities(&self) -> impl Iterator<Item = f64> {
         let equations = &self.smooth.equations;
-        let sliders = equations.sliders.iter().map(|joint| {
-            let slider = equations.mechanism.slider(*joint).expect("sliding joints slide");
-            equations.contacts[slider.contacts[0].index()].sliding_velocity
-        });
+        let sliders = (0..equations.sliders.len()).map(|joint| equations.sliding_velocity(joint));
         sliders.chain((0..equations.mechanism.friction_circles.len()).map(|hinge| equations.spin(hinge)))
     }
 
@@ -435,11 +433,11 @@ impl<'a, 'm> Run<'a, 'm> {
         self.phase = phase;
     }
 
-    /// Whether the last events came within a very short time; bouncing at a stop comes to rest by itself.
+    /// Whether the last events came within a very short time; bouncing at a stop and rocking come to rest by themselves.
     fn accumulates(&self) -> bool {
         let events = &self.history.events;
         let Some(first) = events.len().checked_sub(CROWD) else { return false };
-        let hits = |cause: &Cause| matches!(cause, Cause::Hits { .. });
+        let hits = |cause: &Cause| matches!(cause, Cause::Hits { .. } | Cause::Lands { .. });
         let bounces = events[first..].iter().any(|event| event.causes.iter().any(hits));
         !bounces && self.smooth.time - events[first].time < SHORT * self.smooth.time_scale()
     }
@@ -454,7 +452,11 @@ fn without_ended(
     previous: Option<&Phase>,
 ) {
     let Some(previous) = previous else { return };
-    let stuck = |phase: &Phase| phase.joints_and_hinges().eq(previous.joints_and_hinges());
+    let mechanism = equations.mechanism;
+    let stuck = |phase: &Phase| {
+        let open = |phase: &Phase| phase.open(mechanism);
+        phase.joints_and_hinges().eq(previous.joints_and_hinges()) && open(phase) == open(previous)
+    };
     if causes.contains(&Cause::Slips) {
         successors.retain(|successor| !stuck(&successor.phase));
     }

@@ -16,6 +16,17 @@ pub enum Cause {
     NormalForceZero(ContactId),
     /// A contact leaves its preload gap, towards this side.
     PreloadGapEnds(ContactId, Side),
+    /// A contact that was open reaches its face.
+    Touches(ContactId),
+    /// A contact lands on its face.
+    Lands {
+        /// The contact.
+        contact: ContactId,
+        /// How fast its gap closes before (m/s).
+        speed: f64,
+        /// Kinetic energy that is lost (J); of contacts that land together the first has that of all.
+        energy_lost: Option<f64>,
+    },
     /// The sliding velocity of a joint has reached zero.
     Stops(JointId),
     /// The joints that stick cannot do so any longer.
@@ -89,6 +100,10 @@ kinds! {
         NormalForceZero,
         /// A preload gap closes.
         PreloadGapEnds,
+        /// A contact that was open reaches its face.
+        Touches,
+        /// A contact lands on its face.
+        Lands,
         /// A joint stops sliding.
         Stops,
         /// Sticking joints begin to slip.
@@ -136,6 +151,7 @@ impl Cause {
             Watched::Share(contact, Side::Positive) => Self::PreloadGapEnds(contact, Side::Negative),
             Watched::Share(contact, Side::Negative) => Self::PreloadGapEnds(contact, Side::Positive),
             Watched::Between(contact, side) => Self::PreloadGapEnds(contact, side),
+            Watched::Gap(contact) => Self::Touches(contact),
             Watched::Velocity(index, _) => Self::Stops(sliders[index]),
             Watched::Spin(hinge, _) => Self::StopsTurning(hinges[hinge]),
             Watched::Determinant => Self::Locks,
@@ -154,6 +170,8 @@ impl Cause {
         match self {
             Self::NormalForceZero(contact)
             | Self::PreloadGapEnds(contact, _)
+            | Self::Touches(contact)
+            | Self::Lands { contact, .. }
             | Self::ReactionLimit(contact) => Some(&mechanism.contacts[contact.index()].name),
             Self::Stops(joint)
             | Self::StopsTurning(joint)

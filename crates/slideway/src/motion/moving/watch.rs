@@ -56,6 +56,8 @@ pub(in crate::motion) enum Watched {
     Circles,
     /// The supported length of a block slider.
     Overlap(JointId),
+    /// The gap of a contact that is open.
+    Gap(ContactId),
     /// Distance to the least (-1) or greatest (1) displacement of a sliding joint.
     Travel(JointId, f64),
     /// A function of the user, or its negative.
@@ -89,6 +91,7 @@ impl Watched {
             Self::Velocity(..)
             | Self::Spin(..)
             | Self::Overlap(_)
+            | Self::Gap(_)
             | Self::Travel(..)
             | Self::User(..)
             | Self::Relation(_) => Needs::Motion,
@@ -130,18 +133,23 @@ impl<'o> Watch<'o> {
         let mechanism = equations.mechanism;
         for (index, joint) in equations.sliders.iter().enumerate() {
             let slider = mechanism.slider(*joint).expect("sliding joints slide");
+            let open = slider.contacts.iter().filter(|contact| phase.is_open(mechanism, contact.index()));
+            self.list.extend(open.clone().map(|contact| Watched::Gap(*contact)));
+            if open.count() == slider.contacts.len() {
+                continue;
+            }
             if let JointPhase::Sliding(sign) = phase.joints[index] {
                 if !slider.contacts.iter().all(|k| mechanism.contacts[k.index()].is_frictionless()) {
                     self.list.push(Watched::Velocity(index, sign));
                 }
-                for contact in &slider.contacts {
+                for contact in slider.contacts.iter().filter(|k| !phase.is_open(mechanism, k.index())) {
                     self.contact(*contact, phase.contacts[contact.index()]);
                 }
                 if slider.kind == SliderKind::Guided {
                     self.guided(*joint, slider.contacts[0], phase.contacts[slider.contacts[0].index()]);
                 }
             }
-            if slider.kind == SliderKind::Block {
+            if slider.kind == SliderKind::Block && !mechanism.may_lift_off(slider) {
                 self.list.push(Watched::Overlap(*joint));
             }
             if phase.joints[index] != JointPhase::Sticking {
@@ -224,10 +232,7 @@ impl<'o> Watch<'o> {
                 if side == Side::Positive { share } else { 1.0 - share }
             }
             Watched::Between(contact, side) => -side.sign() * equations.normal_force(contact.index()),
-            Watched::Velocity(index, sign) => {
-                let contact = slider(equations.sliders[index]).contacts[0];
-                sign * equations.contacts[contact.index()].sliding_velocity
-            }
+            Watched::Velocity(index, sign) => sign * equations.sliding_velocity(index),
             Watched::Spin(hinge, sign) => sign * equations.spin(hinge),
             Watched::Determinant => {
                 // Normal forces of both ends of a block become parallel as its overlap vanishes: the
@@ -251,12 +256,8 @@ impl<'o> Watch<'o> {
                 let slider = slider(joint);
                 configuration.overlap(mechanism, slider).unwrap_or(0.0) - LEAVES * slider.length
             }
-            Watched::Travel(joint, end) => {
-                let slider = slider(joint);
-                let (displacement, _) = configuration.sliding(mechanism, slider);
-                let [least, greatest] = slider.limits();
-                if end < 0.0 { displacement - least } else { greatest - displacement }
-            }
+            Watched::Gap(contact) => configuration.gap(mechanism, contact)[0],
+            Watched::Travel(joint, end) => equations.room_to_slide(joint, end),
             Watched::User(index, sign) => sign * self.user[index].value(mechanism, configuration)?,
         })
     }
@@ -282,7 +283,7 @@ impl<'o> Watch<'o> {
             Watched::Share(..) => FORCE_TOLERANCE,
             Watched::Velocity(..) => velocity,
             Watched::Spin(..) => velocity / mechanism.size,
-            Watched::Overlap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
+            Watched::Overlap(_) | Watched::Gap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
@@ -315,7 +316,7 @@ fn pressing_force(contact: ContactId, phase: &Phase, equations: &Equations<'_>) 
 fn overlaps(equations: &Equations<'_>) -> f64 {
     let mechanism = equations.mechanism;
     let sliders = equations.sliders.iter().filter_map(|joint| mechanism.slider(*joint));
-    let blocks = sliders.filter(|slider| slider.kind == SliderKind::Block);
+    let blocks = sliders.filter(|slider| slider.kind == SliderKind::Block && !mechanism.may_lift_off(slider));
     blocks
         .map(|slider| {
             let overlap = equations.configuration.overlap(mechanism, slider).unwrap_or(0.0) / slider.length;

@@ -9,7 +9,7 @@ use crate::motion::decision::rules::Continuation;
 use crate::motion::moving::cause::Cause;
 use crate::pattern::phase::{ContactPhase, JointPhase, Phase, sliding_joints};
 use crate::report::number::against;
-use crate::solve::mode_in_words;
+use crate::solve::{joint_mode_in_words, mode_in_words};
 use nalgebra::Vector2;
 
 /// The words of an event that changes nothing.
@@ -112,6 +112,18 @@ impl Words<'_> {
                 Some(_) => return None,
                 None => format!("the normal force of {} vanishes", self.contact(*contact)),
             },
+            Cause::Touches(contact) => format!("{} reaches its face", self.contact(*contact)),
+            Cause::Lands { contact, speed, energy_lost } => {
+                let lands = format!(
+                    "{} lands with {}",
+                    self.contact(*contact),
+                    self.mechanism.units.of("m/s").brief(*speed)
+                );
+                match energy_lost {
+                    Some(energy) => format!("{lands} ({} lost)", self.mechanism.units.of("J").brief(*energy)),
+                    None => lands,
+                }
+            }
             Cause::Stops(joint) => match after {
                 Some(_) => return None,
                 None => format!("{} stops", self.name(*joint)),
@@ -171,6 +183,9 @@ impl Words<'_> {
         let one = |(index, joint): (usize, &JointId)| {
             let name = self.name(*joint);
             let stops = causes.contains(&Cause::Stops(*joint));
+            if let Some(lifts) = self.lifting(index, *joint, [before, after]) {
+                return Some(lifts);
+            }
             let told = match (before.joints[index], after.joints[index]) {
                 (JointPhase::Sliding(_), JointPhase::Sticking) => format!("{name} stops and sticks"),
                 (JointPhase::Sticking, JointPhase::Sliding(_)) => {
@@ -210,6 +225,33 @@ impl Words<'_> {
             Some(told)
         };
         self.sliders.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// That contacts of a joint lift off or come to touch, if they do.
+    fn lifting(&self, index: usize, joint: JointId, [before, after]: [&Phase; 2]) -> Option<String> {
+        let slider = self.mechanism.slider(joint)?;
+        let open = |phase: &Phase| -> Vec<bool> {
+            slider.contacts.iter().map(|contact| phase.is_open(self.mechanism, contact.index())).collect()
+        };
+        let (before, now) = (open(before), open(after));
+        let opens = before.iter().zip(&now).any(|(before, now)| !before && *now);
+        let name = self.name(joint);
+        let mut closed = slider.contacts.iter().zip(&now).filter(|(_, open)| !**open);
+        match closed.next() {
+            _ if before == now => None,
+            None => Some(format!("{name} lifts off")),
+            Some((corner, _)) if opens => {
+                let how = match after.joints[index] {
+                    JointPhase::Sticking => "which sticks".to_owned(),
+                    JointPhase::Sliding(sign) => {
+                        let tangent = self.configuration.slide(self.mechanism, slider).tangent;
+                        format!("sliding {}", direction_in_words(tangent * sign))
+                    }
+                };
+                Some(format!("{name} tips over {}, {how}", self.contact(*corner)))
+            }
+            Some(_) => Some(format!("{name} touches: it {}", self.state("is now", index, joint, after))),
+        }
     }
 
     /// The hinges with friction and what they do.
@@ -267,15 +309,33 @@ impl Words<'_> {
         })
     }
 
+    /// Whether no contact of a joint touches.
+    fn is_apart(&self, slider: &Slider, phase: &Phase) -> bool {
+        slider.contacts.iter().all(|contact| phase.is_open(self.mechanism, contact.index()))
+    }
+
     /// What a sliding joint does: "is now on the upper side of the slot, sliding to the right".
     fn state(&self, verb: &str, index: usize, joint: JointId, phase: &Phase) -> String {
         match (phase.joints[index], self.mechanism.slider(joint)) {
             (JointPhase::Sliding(_), Some(slider)) if self.stands_freely(slider) => {
                 self.mode(verb, joint, phase)
             }
+            (JointPhase::Sliding(_), Some(slider)) if self.is_apart(slider, phase) => "is apart".to_owned(),
             (JointPhase::Sliding(sign), Some(slider)) => {
                 let tangent = self.configuration.slide(self.mechanism, slider).tangent;
                 format!("{}, sliding {}", self.mode(verb, joint, phase), direction_in_words(tangent * sign))
+            }
+            (JointPhase::Sticking, Some(slider)) => self.sticks(slider, phase),
+            _ => "sticks".to_owned(),
+        }
+    }
+
+    /// That a sliding joint sticks; where, if some of its contacts are open.
+    fn sticks(&self, slider: &Slider, phase: &Phase) -> String {
+        let is_closed = |contact: &&ContactId| !phase.is_open(self.mechanism, contact.index());
+        match slider.contacts.iter().find(is_closed) {
+            Some(corner) if !slider.contacts.iter().all(|contact| is_closed(&contact)) => {
+                format!("sticks at {}", self.contact(*corner))
             }
             _ => "sticks".to_owned(),
         }
@@ -284,13 +344,22 @@ impl Words<'_> {
     /// Where a sliding joint touches its guide: "is now on the upper side of the slot".
     fn mode(&self, verb: &str, joint: JointId, phase: &Phase) -> String {
         let Some(slider) = self.mechanism.slider(joint) else { return String::new() };
+        if self.is_apart(slider, phase) {
+            return format!("{verb} apart");
+        }
+        let tangent = self.configuration.slide(self.mechanism, slider).tangent;
+        if self.mechanism.may_lift_off(slider) {
+            let is_open = |contact: &ContactId| phase.is_open(self.mechanism, contact.index());
+            let sign = |contact: &ContactId| if is_open(contact) { -1 } else { 1 };
+            let signs: Vec<i8> = slider.contacts.iter().map(sign).collect();
+            return format!("{verb} {}", joint_mode_in_words(self.mechanism, slider, tangent, &signs));
+        }
         let sign = |contact: &ContactId| match phase.contacts[contact.index()] {
             ContactPhase::Pressed(Side::Positive) => 1,
             ContactPhase::Pressed(Side::Negative) => -1,
             ContactPhase::PreloadGap => 0,
         };
         let signs: Vec<i8> = slider.contacts.iter().map(sign).collect();
-        let tangent = self.configuration.slide(self.mechanism, slider).tangent;
         let in_gap = |k: &&ContactId| phase.contacts[k.index()] == ContactPhase::PreloadGap;
         let gaps: Vec<&str> = slider.contacts.iter().filter(in_gap).map(|k| self.contact(*k)).collect();
         let mode = format!("{verb} {}", mode_in_words(slider, tangent, &signs));

@@ -103,6 +103,8 @@ pub enum End {
     TravelLimit(JointId),
     /// A block has left its guide.
     OverlapVanished(JointId),
+    /// A contact that was open reaches the line of its face beyond the ends of the face.
+    BesideFace(ContactId),
     /// The normal force of a contact has reached the limit that was given.
     ReactionLimit(ContactId),
     /// A function of the user has passed zero; its number.

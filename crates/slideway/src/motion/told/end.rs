@@ -13,6 +13,11 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
     let joint = |joint: &JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => finished(history, &time),
+        End::TravelLimit(id)
+            if mechanism.slider(*id).is_some_and(|slider| mechanism.may_lift_off(slider)) =>
+        {
+            format!("It ends at {time}: {} reaches the end of its face.", moving(mechanism, *id))
+        }
         End::TravelLimit(id) => format!(
             "It ends at {time}: {} reaches the end of its travel{}, and {} has no stop there.",
             moving(mechanism, *id),
@@ -22,6 +27,10 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
         End::OverlapVanished(id) => {
             format!("It ends at {time}: {} leaves its guide.", moving(mechanism, *id))
         }
+        End::BesideFace(id) => format!(
+            "It ends at {time}: {} passes the line of its face beyond its end, and what it meets there is not in the model.",
+            mechanism.contacts[id.index()].name
+        ),
         End::ReactionLimit(id) => format!(
             "It ends at {time}: the normal force of {} reaches its limit, which counts as a jam.",
             mechanism.contacts[id.index()].name
@@ -56,10 +65,15 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
     }
 }
 
+/// With this part of the greatest energy so far nothing moves.
+const STILL: f64 = 1e-15;
+
 /// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
-    let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest());
+    // What sticks may turn about the corner with which it does.
+    let is_still = history.at_end().1.kinetic <= STILL * history.energy_scale;
+    let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest() && is_still);
     let Some(rest) = rest else {
         let bodies = 3 * history.mechanism.bodies.len();
         let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);

@@ -156,6 +156,8 @@ kinds! {
         TravelLimit,
         /// A block leaves its guide.
         OverlapVanished,
+        /// A contact that was open reaches the line of its face beyond the ends of the face.
+        BesideFace,
         /// A normal force reaches its limit.
         ReactionLimit,
         /// An event of the model that stops the motion.
@@ -397,7 +399,7 @@ fn event_report(history: &History, event: &Event, reader: &mut Reader<'_>) -> Ev
     let branches = if event.successors.len() > 1 { branches(history, event, reader) } else { Vec::new() };
     let lost = event.causes.iter().map(|cause| match cause {
         Cause::Jams { energy_lost } => *energy_lost,
-        Cause::Hits { energy_lost, .. } => energy_lost.unwrap_or(0.0),
+        Cause::Hits { energy_lost, .. } | Cause::Lands { energy_lost, .. } => energy_lost.unwrap_or(0.0),
         _ => 0.0,
     });
     EventReport {

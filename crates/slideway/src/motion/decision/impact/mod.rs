@@ -1,7 +1,9 @@
 //! Impacts on end stops: the impulses of the stops, with friction impulses at all sliding joints and turning hinges.
 //!
-//! What a stop does, and the course of an impact, are here; which impulses are possible is in `pushed.rs`.
+//! What a stop does, and the course of an impact, are here; which impulses are possible is in `pushed.rs`. Impacts on faces are in
+//! `landing.rs`.
 
+mod landing;
 mod pushed;
 
 use super::MOST_STATES;
@@ -13,6 +15,7 @@ use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::pattern::phase::sliding_joints;
 use crate::progress::Work;
+pub(in crate::motion) use landing::{Landing, landing};
 use nalgebra::DVector;
 use pushed::Pushed;
 pub(in crate::motion) use pushed::impact_within;

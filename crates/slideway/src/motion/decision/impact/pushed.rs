@@ -27,6 +27,7 @@ pub(in crate::motion) fn impact_within(
     stops: &[(JointId, f64)],
     work: Work<'_>,
 ) -> Result<Impact, Faults> {
+    mechanism.check_no_one_sided("an impact on an end stop")?;
     let instant = Instant::new(mechanism, configuration)?;
     let velocities = Impulses::new(&instant, work).velocities();
     let joints: Vec<JointId> = instant.joints.iter().map(|joint| joint.id).collect();

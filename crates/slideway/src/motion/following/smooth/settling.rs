@@ -3,8 +3,8 @@
 
 use super::Smooth;
 use crate::configuration::Velocity;
-use crate::ids::JointId;
-use crate::pattern::phase::{JointPhase, Phase};
+use crate::ids::{ContactId, JointId};
+use crate::pattern::phase::{ContactPhase, JointPhase, Phase};
 
 /// Velocities are set to zero where that changes none by more than this multiple of the tolerance, ...
 const SETTLED: f64 = 100.0;
@@ -67,6 +67,19 @@ impl Smooth<'_, '_> {
             return;
         }
         self.equations.hold_at(joint, displacement);
+        let mut moved = self.state.clone();
+        self.equations.project(&mut moved);
+        let places = 3 * self.equations.mechanism.bodies.len();
+        self.state[..places].copy_from_slice(&moved[..places]);
+    }
+
+    /// Brings contacts that have reached their faces exactly there, within errors of steps, as reactions would.
+    pub(in crate::motion) fn put_on_face(&mut self, phase: &Phase, contacts: &[ContactId]) {
+        let mut closed = phase.clone();
+        contacts.iter().for_each(|contact| closed.contacts[contact.index()] = ContactPhase::CLOSED[0]);
+        if self.equations.enter(&closed, self.time, &self.state).is_err() {
+            return;
+        }
         let mut moved = self.state.clone();
         self.equations.project(&mut moved);
         let places = 3 * self.equations.mechanism.bodies.len();

@@ -36,15 +36,20 @@ impl Equations<'_> {
         self.row_ends.clear();
         let first = 3 * self.mechanism.bodies.len();
         for (index, reaction) in self.layout.reactions().iter().enumerate() {
-            self.row.set_constraint(self.mechanism, &self.configuration, &self.contacts, *reaction);
-            put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
-            self.rows.extend_from_slice(&self.row.entries);
+            if self.is_without(*reaction) {
+                self.system.add(first + index, first + index, 1.0);
+            } else {
+                self.row.set_constraint(self.mechanism, &self.configuration, &self.contacts, *reaction);
+                put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
+                self.rows.extend_from_slice(&self.row.entries);
+            }
             self.row_ends.push(self.rows.len());
         }
         let first = self.layout.len();
         for index in 0..self.stuck.len() {
             let Some(kind) = self.kind_of(self.stuck[index].what) else { continue };
-            self.row.set_coordinate(self.mechanism, &self.configuration, kind);
+            let touching = self.touching.as_deref().unwrap_or(self.mechanism);
+            self.row.set_coordinate(touching, &self.configuration, kind);
             put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
             self.rows.extend_from_slice(&self.row.entries);
             self.row_ends.push(self.rows.len());
@@ -77,7 +82,7 @@ impl Equations<'_> {
     fn assemble_friction(&mut self) {
         for (k, rubbing) in self.rubbing.iter().enumerate() {
             let (column, sigma, faces) = match rubbing {
-                Rubbing::Sticking => continue,
+                Rubbing::Sticking | Rubbing::Open => continue,
                 Rubbing::Pressed { side, faces, .. } => (self.normal[k], side.sign(), faces),
                 Rubbing::Gap { faces, share } => {
                     self.system.clear_column(*share);

@@ -14,7 +14,7 @@
 //! which acts like a couple, takes its place; that `N_k` is zero without it is watched. A joint that sticks
 //! adds the row that its sliding acceleration is zero, and the tangential force `t_j` on its centre line,
 //! block against guide. (At another line of the same joint it would shift normal force between the two ends
-//! of the block, and nothing else.)
+//! of the block, and nothing else.) Where a contact that may lift off is open, `N_k = 0` takes the place of its row.
 //!
 //! The couple of a hinge that turns with friction is `-r |R| sgn(omega)`, and the force `R` of the hinge is among the
 //! unknowns (`hinges.rs`). One that sticks adds the row that its angular acceleration is zero, and its couple.
@@ -32,7 +32,8 @@ use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
-use crate::mechanism::{Mechanism, body_of};
+use crate::mechanism::{Attachment, Mechanism, Slider, body_of};
+use crate::model::SliderKind;
 use crate::modes::Side;
 use crate::motion::moving::linear::{Determinant, LinearSystem};
 use crate::motion::moving::stepper::Derivative;
@@ -65,6 +66,8 @@ enum Rubbing {
     Gap { faces: [[f64; 2]; 2], share: usize },
     /// The joint sticks: its tangential force stands for all its contacts.
     Sticking,
+    /// The contact is open: in the place of its row stands N = 0.
+    Open,
 }
 
 /// What sticks.
@@ -114,6 +117,8 @@ pub(in crate::motion) struct Equations<'m> {
     /// Whether the work of each load is counted as potential energy.
     pub(in crate::motion) conservative: Vec<bool>,
     rubbing: Vec<Rubbing>,
+    /// The mechanism of a phase in which contacts that may lift off are open.
+    touching: Option<Box<Mechanism>>,
     stuck: Vec<Stuck>,
     hinges: Vec<RoughHinge>,
     /// The sign of the determinant where the phase begins, if hinges turn with friction.
@@ -150,6 +155,7 @@ impl<'m> Equations<'m> {
                 .map(crate::motion::moving::energy::is_conservative)
                 .collect(),
             rubbing: vec![Rubbing::Sticking; mechanism.contacts.len()],
+            touching: None,
             stuck: Vec::new(),
             hinges: hinges::rough_hinges(mechanism, &layout),
             orientation: None,
@@ -197,6 +203,8 @@ impl<'m> Equations<'m> {
         state: &[f64],
     ) -> Result<(), Failure> {
         self.place(time, state);
+        let open = phase.open(self.mechanism);
+        self.touching = (!open.is_empty()).then(|| Box::new(self.mechanism.touching(&open, |_| false)));
         self.choose_friction(phase);
         self.choose_stuck(phase);
         let size = self.layout.len() + self.stuck.len();
@@ -299,6 +307,55 @@ impl<'m> Equations<'m> {
         if is_taken { 0.0 } else { self.unknowns[normal] }
     }
 
+    /// Whether a contact that may lift off is open.
+    pub(in crate::motion) fn is_open(&self, k: usize) -> bool {
+        matches!(self.rubbing[k], Rubbing::Open)
+    }
+
+    /// The mechanism as it touches in the phase.
+    fn touching(&self) -> &Mechanism {
+        self.touching.as_deref().unwrap_or(self.mechanism)
+    }
+
+    /// The sliding velocity of a sliding joint by its number among these (m/s): of what may lift off that of the contact
+    /// with the least gap.
+    pub(in crate::motion) fn sliding_velocity(&self, index: usize) -> f64 {
+        let slider = self.mechanism.slider(self.sliders[index]).expect("sliding joints slide");
+        let gap = |contact: &&ContactId| self.configuration.gap(self.mechanism, **contact)[0];
+        let nearest = || slider.contacts.iter().min_by(|one, other| gap(one).total_cmp(&gap(other)));
+        let lifts = slider.contacts.len() > 1 && self.mechanism.may_lift_off(slider);
+        let contact = if lifts { nearest() } else { slider.contacts.first() };
+        contact.map_or(0.0, |contact| self.contacts[contact.index()].sliding_velocity)
+    }
+
+    /// How far a sliding joint is from its least (-1) or greatest (1) displacement (m); what may lift off with the first of
+    /// its contacts that touch.
+    pub(in crate::motion) fn room_to_slide(&self, joint: JointId, end: f64) -> f64 {
+        let (mechanism, configuration) = (self.mechanism, &self.configuration);
+        let Some(slider) = mechanism.slider(joint) else { return f64::INFINITY };
+        let room = |displacement: f64, [least, greatest]: [f64; 2]| {
+            if end < 0.0 { displacement - least } else { greatest - displacement }
+        };
+        if !mechanism.may_lift_off(slider) {
+            return room(configuration.sliding(mechanism, slider).0, slider.limits());
+        }
+        let closed = slider.contacts.iter().filter(|contact| !self.is_open(contact.index()));
+        closed.map(|contact| self.room_on_face(slider, *contact, end)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// How far a contact that may lift off is from the beginning (-1) or the end (1) of its face (m).
+    pub(in crate::motion) fn room_on_face(&self, slider: &Slider, contact: ContactId, end: f64) -> f64 {
+        let contact = &self.mechanism.contacts[contact.index()];
+        let position = contact.position(slider);
+        let [block, guide] = [slider.block, slider.guide]
+            .map(|frame| self.configuration.position(self.mechanism, &Attachment { frame, position }));
+        let along = self.configuration.direction(slider.guide, slider.tangent).dot(&(block - guide));
+        let half = if slider.kind == SliderKind::Block { slider.length / 2.0 } else { 0.0 };
+        let [least, greatest] = slider.limits();
+        let place = along + contact.offset;
+        if end < 0.0 { place - (least - half) } else { greatest + half - place }
+    }
+
     /// For a contact in a preload gap the share of the face of positive normal force.
     pub(in crate::motion) fn share(&self, k: usize) -> Option<f64> {
         match self.rubbing[k] {
@@ -319,6 +376,7 @@ impl<'m> Equations<'m> {
             Rubbing::Pressed { side, faces, .. } => (side.sign() * self.normal_force(k), faces),
             Rubbing::Gap { faces, share } => (self.unknowns[share], faces),
             Rubbing::Sticking => return None,
+            Rubbing::Open => return Some(0.0),
         };
         Some(faces.iter().map(|[factor, constant]| factor * value + constant).sum())
     }

@@ -19,6 +19,7 @@ impl Equations<'_> {
                 let k = contact.index();
                 let law = Law::new(self.mechanism, (k, &self.mechanism.contacts[k]), (1.0, true), [false; 2]);
                 self.rubbing[k] = match (phase.joints[index], phase.contacts[k]) {
+                    _ if phase.is_open(self.mechanism, k) => Rubbing::Open,
                     (JointPhase::Sticking, _) => Rubbing::Sticking,
                     (JointPhase::Sliding(sign), ContactPhase::Pressed(side)) => {
                         Rubbing::Pressed { side, sign, faces: law.kinetic(side, sign) }
@@ -65,6 +66,9 @@ impl Equations<'_> {
             new
         };
         for reaction in self.layout.reactions() {
+            if self.is_without(*reaction) {
+                continue;
+            }
             self.row.set_constraint(mechanism, &self.configuration, &self.contacts, *reaction);
             is_new(&self.row);
         }
@@ -75,17 +79,27 @@ impl Equations<'_> {
         }
         for what in self.sticking(phase) {
             let Some(kind) = self.kind_of(what) else { continue };
-            self.row.set_coordinate(mechanism, &self.configuration, kind);
+            let touching = self.touching.as_deref().unwrap_or(mechanism);
+            self.row.set_coordinate(touching, &self.configuration, kind);
             if is_new(&self.row) {
                 self.stuck.push(Stuck { what, place: self.place_of(what) });
             }
         }
     }
 
+    /// Whether a reaction is that of a contact that is open.
+    pub(super) fn is_without(&self, reaction: Reaction) -> bool {
+        matches!(reaction, Reaction::Normal(contact) if self.is_open(contact.index()))
+    }
+
     /// The sliding joints that stick in a phase, then the hinges with friction that do.
     fn sticking(&self, phase: &Phase) -> Vec<Sticks> {
         let sliders = self.sliders.iter().zip(&phase.joints);
-        let sliders = sliders.filter(|(_, state)| **state == JointPhase::Sticking);
+        let touches = |joint: JointId| {
+            let slider = self.mechanism.slider(joint);
+            slider.is_some_and(|slider| slider.contacts.iter().any(|contact| !self.is_open(contact.index())))
+        };
+        let sliders = sliders.filter(|(joint, state)| **state == JointPhase::Sticking && touches(**joint));
         let hinges = phase.hinges.iter().enumerate();
         let hinges = hinges.filter(|(_, hinge)| hinge.state == JointPhase::Sticking);
         let sliders = sliders.map(|(joint, _)| Sticks::Slider(*joint));
@@ -104,8 +118,8 @@ impl Equations<'_> {
     pub(super) fn place_of(&self, what: Sticks) -> f64 {
         match self.kind_of(what) {
             Some(CoordinateKind::Slide(joint)) => {
-                let slider = self.mechanism.slider(joint).expect("sliding joints slide");
-                self.configuration.sliding(self.mechanism, slider).0
+                let slider = self.touching().slider(joint).expect("sliding joints slide");
+                self.configuration.sliding(self.touching(), slider).0
             }
             Some(CoordinateKind::Rotation(body, against)) => {
                 self.configuration.angle(Frame::Body(body)) - self.configuration.angle(against)

@@ -79,6 +79,13 @@ impl Equations<'_> {
     /// Distance of the block's line from that of the guide at a contact, along n.
     fn normal_gap(&self, contact: ContactId) -> f64 {
         let (mechanism, configuration) = (self.mechanism, &self.configuration);
+        if mechanism.contacts[contact.index()].opens {
+            return if self.is_open(contact.index()) {
+                0.0
+            } else {
+                configuration.gap(mechanism, contact)[0]
+            };
+        }
         let joint = mechanism.contacts[contact.index()].joint;
         let Some(slider) = mechanism.slider(joint) else { return 0.0 };
         let geometry = &self.contacts[contact.index()];

@@ -1,0 +1,284 @@
+//! Contacts that may lift off, at an instant: each set of those that touch is tried as open, with the mechanism as it
+//! touches then.
+//!
+//! ```text
+//! closed   N_k >= 0, acceleration of the gap = 0         apart   N_k = 0, acceleration of the gap >= 0
+//! ```
+//!
+//! What is apart has no rows, so that all other states are those of a mechanism without it; that its gap does not close is one
+//! more inequality of that mechanism. Where a normal force has just vanished, both it and the acceleration of the gap are
+//! zero, and how these go on decides.
+
+use super::elastic::verdict_on;
+use super::impulse::AT_REST;
+use super::joints::TOUCHES;
+use super::parts::SAME;
+use super::rules::{Continuation, Continuations, EventInstant};
+use super::sticking::phase_state;
+use super::successors::{Successor, Successors};
+use super::{MOST_STATES, PhaseBound, Standing};
+use crate::configuration::{Configuration, Velocity};
+use crate::fault::{Fault, FaultKind, Faults};
+use crate::ids::{ContactId, JointId};
+use crate::kinetics::KineticEquations;
+use crate::mechanism::{JointKind, Mechanism};
+use crate::pattern::{ContactPhase, JointPhase, Phase};
+use crate::report::Verdict;
+use nalgebra::DVector;
+use std::cmp::Reverse;
+
+/// Below this part of the velocity of the least flight a gap does not open.
+const LITTLE_FLIGHT: f64 = 1e-3;
+
+/// A mechanism of which some contacts that may lift off are open.
+pub(super) struct Touching<'m> {
+    whole: &'m Mechanism,
+    open: Vec<usize>,
+    /// The contacts that are left, by their numbers in the whole.
+    kept: Vec<usize>,
+    /// The mechanism as it touches.
+    pub(super) mechanism: Mechanism,
+}
+
+impl<'m> Touching<'m> {
+    /// The mechanism while the contacts that are apart and some of those that touch are open.
+    pub(super) fn new(whole: &'m Mechanism, apart: &[usize], left: &[usize]) -> Self {
+        let mut open = [apart, left].concat();
+        open.sort_unstable();
+        let kept = (0..whole.contacts.len()).filter(|k| !open.contains(k)).collect();
+        Self { mechanism: whole.touching(&open, |k| left.contains(&k)), whole, open, kept }
+    }
+
+    /// The mechanism in a phase.
+    pub(super) fn in_phase(whole: &'m Mechanism, phase: &Phase) -> Self {
+        Self::new(whole, &phase.open(whole), &[])
+    }
+
+    /// What a phase of the whole mechanism says of it.
+    pub(super) fn part_of(&self, phase: &Phase) -> Phase {
+        Phase { contacts: self.kept.iter().map(|&k| phase.contacts[k]).collect(), ..phase.clone() }
+    }
+
+    /// The number in the whole of a contact that is left.
+    pub(super) fn number(&self, contact: ContactId) -> usize {
+        self.kept[contact.index()]
+    }
+
+    /// A list of values, one for each contact that is left, for all contacts.
+    pub(super) fn of_all<T: Copy>(&self, values: &[T], open: T) -> Vec<T> {
+        let mut all = vec![open; self.whole.contacts.len()];
+        self.kept.iter().zip(values).for_each(|(&k, value)| all[k] = *value);
+        all
+    }
+
+    /// Which of the sliding joints do not touch at all.
+    fn is_apart(&self) -> Vec<bool> {
+        let sliders = self.mechanism.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => Some(slider.contacts.is_empty()),
+            JointKind::Hinge(_) => None,
+        });
+        sliders.collect()
+    }
+
+    /// A phase of it as one of the whole mechanism.
+    fn whole(&self, phase: &Phase) -> Phase {
+        let mut whole =
+            Phase { contacts: self.of_all(&phase.contacts, ContactPhase::PreloadGap), ..phase.clone() };
+        for (joint, apart) in whole.joints.iter_mut().zip(self.is_apart()) {
+            if apart {
+                *joint = JointPhase::Sliding(1.0);
+            }
+        }
+        whole
+    }
+
+    /// The phases of it in which the mechanism can go on.
+    fn successors(&self, event: &EventInstant<'_>) -> Result<Successors, Faults> {
+        let apart = self.is_apart();
+        let signs: Vec<f64> =
+            event.signs.iter().zip(apart).map(|(sign, apart)| if apart { 1.0 } else { *sign }).collect();
+        let joint_rests = |k: usize| {
+            let joint = self.mechanism.contacts[k].joint;
+            let mut sliders = crate::pattern::phase::sliding_joints(&self.mechanism).into_iter();
+            sliders.position(|slider| slider == joint).is_some_and(|index| signs[index] == 0.0)
+        };
+        self.mechanism.check_no_disc_at_rest(joint_rests)?;
+        let previous = event.previous.filter(|phase| phase.open(self.whole) == self.open);
+        let previous = previous.map(|phase| self.part_of(phase));
+        let place = |contact: &ContactId| self.kept.iter().position(|&k| k == contact.index()).map(ContactId);
+        let zero: Vec<ContactId> = match &previous {
+            Some(_) => event.zero.iter().filter_map(place).collect(),
+            None => Vec::new(),
+        };
+        let event = EventInstant {
+            mechanism: &self.mechanism,
+            signs: &signs,
+            zero: &zero,
+            previous: previous.as_ref(),
+            ..*event
+        };
+        super::successors::continuations(&event)
+    }
+}
+
+/// A phase that can follow, with what its place in the order depends on.
+struct Candidate {
+    continuation: Continuation,
+    /// Joints that stick on, and joints that stick.
+    sticking: [usize; 2],
+    /// Whether only rounding keeps what has vanished from going on to fall.
+    is_over: bool,
+    is_present: bool,
+    open: usize,
+}
+
+/// The phases in which a mechanism can go on some of whose contacts may lift off, in the order of
+/// [`successors`](super::successors()).
+///
+/// # Errors
+/// As [`successors`](super::successors()), for each set of contacts that touch.
+pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, Faults> {
+    let mechanism = event.mechanism;
+    let (apart, sets) = sets_of_open(event)?;
+    let before = accelerations_before(event)?;
+    let mut found = Continuations::default();
+    let mut candidates: Vec<(Candidate, Touching<'_>, Phase)> = Vec::new();
+    for left in sets {
+        if event.work.is_over() {
+            break;
+        }
+        let successors = Touching::new(mechanism, &apart, &left).successors(event)?;
+        found.left_out |= !successors.complete || !successors.unsolved.is_empty();
+        for successor in successors.list {
+            let touching = Touching::new(mechanism, &apart, &left);
+            let candidate = candidate(event, (&touching, &successor, left.len()), before.as_ref());
+            candidates.push((candidate, touching, successor.phase));
+        }
+    }
+    if candidates.len() > 1 {
+        for (candidate, touching, phase) in &mut candidates {
+            candidate.continuation.verdict = verdict_on(&touching.mechanism, event.configuration, phase);
+        }
+    }
+    candidates.sort_by_key(|(candidate, ..)| {
+        let Candidate { continuation, sticking, is_over, is_present, open } = candidate;
+        let is_threshold = continuation.verdict == Verdict::Unattainable;
+        (sticking.map(Reverse), *is_over, is_threshold, !is_present, !continuation.continues, *open)
+    });
+    found.list = candidates.into_iter().map(|(candidate, ..)| candidate.continuation).collect();
+    Ok(found)
+}
+
+/// The guided sliders that would tip in one of the sets of contacts that may be open.
+///
+/// # Errors
+/// As [`continuations`].
+pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
+    let mut joints = Vec::new();
+    let (apart, sets) = sets_of_open(event)?;
+    for left in sets {
+        let found = Touching::new(event.mechanism, &apart, &left).successors(event)?;
+        joints.extend(found.tipping.into_iter().flat_map(|tipping| tipping.joints));
+    }
+    Ok(joints)
+}
+
+/// The contacts that are apart at an instant, and the sets of those that touch which may be open, too.
+///
+/// # Errors
+/// So many touch that not all sets are tried; no free bodies.
+fn sets_of_open(event: &EventInstant<'_>) -> Result<(Vec<usize>, Vec<Vec<usize>>), Faults> {
+    let EventInstant { mechanism, configuration, previous, .. } = *event;
+    let speed = |v: &Velocity| v.linear.amax().max(v.angular.abs() * mechanism.size);
+    let fastest = configuration.velocities.iter().map(speed).fold(0.0, f64::max);
+    let little = (AT_REST * fastest).max(LITTLE_FLIGHT * least_flight(mechanism, configuration)?);
+    let is_apart = |contact: &ContactId| {
+        let [gap, rate] = configuration.gap(mechanism, *contact);
+        let was_closed = previous.is_some_and(|phase| !phase.is_open(mechanism, contact.index()));
+        !was_closed && (gap > TOUCHES * mechanism.size || rate > little)
+    };
+    let (apart, touching): (Vec<ContactId>, Vec<ContactId>) = mechanism.one_sided().partition(is_apart);
+    let numbers = |contacts: Vec<ContactId>| contacts.into_iter().map(ContactId::index).collect::<Vec<_>>();
+    Ok((numbers(apart), subsets(&numbers(touching))?))
+}
+
+/// The velocity `u` with which a contact leaves its face for a flight that rounding of places hides, `u^2/(2 a) = d` with the
+/// least length `d` and the greatest acceleration `a` of the bodies without contacts that may lift off (m/s).
+///
+/// # Errors
+/// As [`KineticEquations::new`].
+pub(super) fn least_flight(mechanism: &Mechanism, configuration: &Configuration) -> Result<f64, Faults> {
+    let all: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
+    let free = mechanism.without_contacts(&all);
+    let unknowns = KineticEquations::new(&free, configuration)?.frictionless();
+    let bodies = unknowns.rows(0, 3 * mechanism.bodies.len());
+    let in_metres =
+        |(index, value): (usize, &f64)| value.abs() * if index % 3 == 2 { mechanism.size } else { 1.0 };
+    let greatest = bodies.iter().enumerate().map(in_metres).fold(0.0, f64::max);
+    Ok((2.0 * greatest * TOUCHES * mechanism.size).sqrt())
+}
+
+/// All sets of some of these, the empty one first.
+///
+/// # Errors
+/// There are more than are tried.
+pub(super) fn subsets(of: &[usize]) -> Result<Vec<Vec<usize>>, Faults> {
+    let states = of.iter().fold(1_u64, |states, _| states.saturating_mul(2));
+    if states > MOST_STATES {
+        return Err(Fault::general(FaultKind::TooManyStates { states, limit: MOST_STATES }).into());
+    }
+    let chosen = |set: u64| of.iter().enumerate().filter(move |(at, _)| set >> at & 1 == 1).map(|(_, k)| *k);
+    Ok((0..states).map(|set| chosen(set).collect()).collect())
+}
+
+/// The accelerations of all bodies in the phase that has ended, at its end.
+fn accelerations_before(event: &EventInstant<'_>) -> Result<Option<DVector<f64>>, Faults> {
+    let EventInstant { mechanism, configuration, previous, .. } = *event;
+    let Some(previous) = previous else { return Ok(None) };
+    let touching = Touching::in_phase(mechanism, previous);
+    let state = phase_state(&touching.mechanism, configuration, &touching.part_of(previous))?;
+    Ok(state.map(|state| of_bodies(mechanism, &state.unknowns)))
+}
+
+fn of_bodies(mechanism: &Mechanism, unknowns: &DVector<f64>) -> DVector<f64> {
+    unknowns.rows(0, 3 * mechanism.bodies.len()).into_owned()
+}
+
+fn candidate(
+    event: &EventInstant<'_>,
+    (touching, successor, open): (&Touching<'_>, &Successor, usize),
+    before: Option<&DVector<f64>>,
+) -> Candidate {
+    let phase = touching.whole(&successor.phase);
+    let sticks = |phase: &Phase, number: usize| phase.joints[number] == JointPhase::Sticking;
+    let stuck = || (0..phase.joints.len()).filter(|&number| sticks(&phase, number));
+    let stayed = stuck().filter(|&number| event.previous.is_some_and(|before| sticks(before, number)));
+    let now = of_bodies(event.mechanism, &successor.state.unknowns);
+    let continues = before.is_some_and(|before| (&now - before).amax() <= SAME * before.amax());
+    let undecided = matches!(&successor.standing, Standing::Undecided(bounds)
+        if bounds.iter().any(|bound| matches!(bound, PhaseBound::NormalForce(_))));
+    Candidate {
+        sticking: [stayed.count(), stuck().count()],
+        is_over: successor.is_present && undecided && !event.zero.is_empty(),
+        is_present: successor.is_present,
+        open,
+        continuation: Continuation { phase, verdict: successor.attainability.verdict, continues },
+    }
+}
+
+/// The normal force of each contact in a phase in which joints stick (N), as
+/// [`determined_forces`](super::determined_forces) has it; zero where it is open.
+///
+/// # Errors
+/// As [`determined_forces`](super::determined_forces).
+pub(super) fn normal_forces(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    phase: &Phase,
+) -> Result<Vec<Option<f64>>, Faults> {
+    let touching = Touching::in_phase(mechanism, phase);
+    let part = touching.part_of(phase);
+    let forces = super::determined_forces(&touching.mechanism, configuration, &part)?;
+    let forces: Vec<Option<f64>> = forces.contacts.into_iter().map(|[normal, _]| normal).collect();
+    Ok(touching.of_all(&forces, Some(0.0)))
+}
