@@ -717,7 +717,7 @@ impl FaultKind {
             Self::BesideStanding { .. } => format!(
                 "their friction is a range: `{} {}` says from which factor of friction on there is no solution, and `{}` with {} for which values all solutions keep a greatest force; to leave that friction out write `mu = 0` there",
                 face.question("limits"),
-                face.option_with("vary", crate::model::FRICTION),
+                face.option_with("vary", "friction"),
                 face.question("size"),
                 face.option("max-normal-force")
             ),

@@ -420,7 +420,7 @@ fn of_check(outcome: Outcome) -> First {
             "No question can be answered in this state: 1 fault.",
         ),
         Undetermined => {
-            Line(checked(EQUAL_PLAY, &[]), "Ready for: solve, drive. Not for hold, simulate: see below.")
+            Line(checked(EQUAL_PLAY, &[]), "Ready for: solve, drive, hold. Not for simulate: see below.")
         }
         Several | Gap | Tip | Jam | SlowsDown | Undecided => Never("that is for the questions to find"),
         Interrupted => {
