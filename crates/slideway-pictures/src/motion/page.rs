@@ -215,7 +215,7 @@ pub(super) fn colours(animation: &Animation) -> Vec<(Class, &'static str)> {
     // They have one colour, and so one entry.
     if [Class::Reaction, Class::PinForce].iter().all(occurs) {
         used.retain(|(class, _)| *class != Class::PinForce);
-        used[0].1 = "normal reaction, force of a pin";
+        used[0].1 = "force of a pin, normal reaction";
     }
     used
 }
