@@ -56,8 +56,9 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             Paint { fill, hatching }
         }
         ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. } => {
-            let is_set =
-                |meaning: &ClassMeaning| matches!(meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. });
+            let is_set = |meaning: &ClassMeaning| {
+                matches!(meaning, ClassMeaning::Modes { .. } | ClassMeaning::Starts { .. })
+            };
             let place = place(classes, class, is_set);
             // After a round of colours they are hatched.
             let hatching = (place >= SETS.len()).then_some(Hatching::Falling);

@@ -135,6 +135,8 @@ __all__ = [
     "ModeMargin",
     "ModelSummary",
     "Named",
+    "OneFaceHint",
+    "OneFaceReason",
     "OpenRange",
     "Panel",
     "PatternSummary",
@@ -516,6 +518,13 @@ another solution.
 - `"reversal"`: Sliding or turning reverses.
 - `"no_mode_problem"`: Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the
 model is not allowed."""
+
+OneFaceReason = Literal["pulls", "changes_side", "jams"]
+"""What needs the second face of a joint.
+
+- `"pulls"`: The block is drawn on one side of the face, and the face pulls it.
+- `"changes_side"`: Under the weights alone the block lies on one face, and it presses the other one.
+- `"jams"`: The block is drawn on one side of the face or lies on it, and it jams."""
 
 Persistence = Literal["all_values", "some_values", "undecided"]
 """For which values of the uncertain parameters a mode has a solution.
@@ -1832,7 +1841,7 @@ class HingeRange(Record):
 class HoldReport(_mixins.HoldReport, Report):
     """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
 
-    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None}
+    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None, "one_face_hints": ()}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1864,6 +1873,9 @@ class HoldReport(_mixins.HoldReport, Report):
     releases: tuple[Release, ...]
     """Every state in which it begins to move; empty also where motions without inertia kept them from being
     sought."""
+    one_face_hints: tuple[OneFaceHint, ...]
+    """The joints of two faces of which rest, or the start of the motion, needs the one that the thing itself may
+    not have. Absent if there are none."""
     motions_without_inertia: tuple[str, ...]
     """Motions of the joints without inertia; if there are any, `releases` was not sought."""
     rest_patterns: int
@@ -2311,6 +2323,22 @@ class Named(Record):
     """Its name."""
     value: float
     """J"""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class OneFaceHint(Record):
+    """A joint of two faces whose answer needs the face that the thing itself may not have."""
+
+    joint: str
+    """The joint."""
+    contacts: tuple[str, ...]
+    """Its contacts that need the other face; all of them where it jams."""
+    reason: OneFaceReason
+    """What needs it."""
+    instead: str
+    """The type of joint that may lift off."""
+    words: str
+    """The same in words."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2862,7 +2890,7 @@ class Solution(_mixins.Solution, Record):
 class SolveReport(_mixins.SolveReport, Report):
     """All solutions of the kinetic problem of a mechanism in one state."""
 
-    _absent = {"at_rest": (), "every_load_has_one_state": None, "steps_from_drawing": None, "patterns": None, "undetermined": None, "jam_impulses": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "sharing": None, "uncertainty": None}
+    _absent = {"at_rest": (), "every_load_has_one_state": None, "steps_from_drawing": None, "patterns": None, "undetermined": None, "jam_impulses": None, "margins": None, "margins_missing": None, "unique_at_least": None, "from_rest": None, "one_face_hints": (), "sharing": None, "uncertainty": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2936,6 +2964,9 @@ class SolveReport(_mixins.SolveReport, Report):
     from_rest: FromRest | None
     """Where some coordinate slows down: what the same loads do from rest in the same position; absent where it
     was not asked (margins are not, drives prescribe the motion)."""
+    one_face_hints: tuple[OneFaceHint, ...]
+    """The joints of two faces of which a solution, or the jam, needs the one that the thing itself may not have.
+    Absent if there are none."""
     sharing: LoadSharing | None
     """How redundant guides share their load; absent if no constraint is redundant."""
     uncertainty: Uncertainty | None

@@ -20,8 +20,7 @@ fn an_impulse_without_collision_ends_the_jam_of_the_rod() {
     let jumps = "Velocities jump without a collision. Afterwards P: closed, sticks (it takes 0.2 J).";
     assert!(report.answer().ends_with(jumps), "{}", report.answer());
     // Rolls that are driven let nothing stop: the disc would have to go through their gap.
-    let rolls =
-        include_str!("../../models/nip-of-rolls.toml").replace("mu = 0.3", "mu = 0.45");
+    let rolls = include_str!("../../models/nip-of-rolls.toml").replace("mu = 0.3", "mu = 0.45");
     let report = report_on(&rolls);
     assert_eq!(report.jam_impulses.as_deref(), Some(&[][..]));
     assert!(
