@@ -80,7 +80,7 @@ impl Naming {
             let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
             let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
             let mode = joint_mode_in_words(&self.mechanism, slider, tangent, &signs);
-            JointMode { name: name.to_owned(), mode }
+            JointMode { name: name.to_owned(), mode, start: None }
         };
         self.sliders().map(one).collect()
     }

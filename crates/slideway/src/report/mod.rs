@@ -651,6 +651,9 @@ pub struct JointMode {
     pub name: String,
     /// The mode in words: "touching at lower right and upper left".
     pub mode: String,
+    /// The mode of a joint at rest that starts to slide, without numbers: "closed, slides forwards".
+    #[serde(skip)]
+    pub(crate) start: Option<String>,
 }
 
 /// A hinge force.

@@ -151,11 +151,14 @@ pub fn solve_with(
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
     let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
-    let state = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
-    answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
+    let (stages, equations) = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
+    let mut report = answered(model, (&stages, &equations), &model.ranges()?, options, progress)?;
+    report.one_face_hints =
+        one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
+    Ok(report)
 }
 
-/// [`solve_with`] in stages of the model that are there already, without margins and uncertainty.
+/// [`solve_with`] in stages of the model that are there already, without margins, uncertainty and hints.
 ///
 /// # Errors
 /// As [`solve`].
@@ -194,8 +197,6 @@ fn answered(
         if options.margins && !at_rest {
             from_rest::add(&mut report, model, progress);
         }
-        report.one_face_hints =
-            one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
         report.suit_units();
         return finite(report);
     }
@@ -230,8 +231,6 @@ fn answered(
         }
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
-    report.one_face_hints =
-        one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
     report.suit_units();
     finite(report)
 }

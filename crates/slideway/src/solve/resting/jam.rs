@@ -57,7 +57,8 @@ fn others(stages: &Stages) -> Vec<(SlidingRow, f64)> {
         let first = *slider.contacts.first()?;
         let sign = velocity_signs[first.index()];
         let velocity = configuration.contact(mechanism, first).sliding_velocity;
-        (sign != 0.0).then(|| (SlidingRow::new(mechanism, configuration, slider), velocity))
+        let rubs = slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].may_hold());
+        (sign != 0.0 && rubs).then(|| (SlidingRow::new(mechanism, configuration, slider), velocity))
     };
     mechanism.joints.iter().filter_map(of_joint).collect()
 }

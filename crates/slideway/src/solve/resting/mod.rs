@@ -356,7 +356,8 @@ impl<'a> Resting<'a> {
             let Some(mode) = modes.iter_mut().find(|mode| mode.name == name) else { continue };
             let starts = match (start, mechanism.slider(joint.joint)) {
                 (Some(Start::Slips(sign)), Some(slider)) => {
-                    let sign = if *sign < 0.0 { -1 } else { 1 };
+                    let (sign, sense) = if *sign < 0.0 { (-1, "backwards") } else { (1, "forwards") };
+                    mode.start = Some(format!("{}, slides {sense}", mode.mode));
                     sliding_in_words(mechanism, configuration, slider, sign)
                 }
                 (Some(Start::Sticks), Some(slider)) => sticking_in_words(slider).to_owned(),
