@@ -1520,10 +1520,10 @@ class DriveReport(_mixins.DriveReport, Report):
     drives: tuple[DriveName, ...]
     """The drives; all lists of efforts have their order."""
     directions: tuple[DriveDirection, ...]
-    """Motion as in the model, and with all rates reversed."""
+    """Motion as in the model, and with all rates reversed; at rest on contacts that may lift off only the first."""
     held: tuple[HeldEffort, ...]
     """At rest on contacts that may lift off: the efforts of each drive, the others absent, with which it stays
-    at rest; any other sets it in motion. Absent elsewhere."""
+    at rest; any other may set it in motion. Absent elsewhere, and where `hold` does not know."""
     course: Course | None
     """The efforts over what is varied, if anything is."""
     conclusion: tuple[str, ...]

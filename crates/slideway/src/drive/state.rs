@@ -30,11 +30,7 @@ pub(super) struct State {
 ///
 /// # Errors
 /// Whatever `solve` refuses.
-pub(super) fn direction(
-    model: &Model,
-    direction: Sense,
-    work: Work<'_>,
-) -> Result<State, Faults> {
+pub(super) fn direction(model: &Model, direction: Sense, work: Work<'_>) -> Result<State, Faults> {
     let mechanism = Mechanism::new(model)?;
     let mut goes_on = |progress: &Progress| work.part(0, 2).tell(progress);
     let configuration = Configuration::with_progress(&mechanism, &mut goes_on)?;

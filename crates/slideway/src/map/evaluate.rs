@@ -61,7 +61,8 @@ impl<'a> Evaluator<'a> {
         let source = |model: Model| Source::new(model, axes, colour_by).map(Some);
         let forwards = if colour_by == ColourBy::Hold { None } else { source(model.clone())? };
         let opposite = if colour_by == ColourBy::Jam { source(model.reversed())? } else { None };
-        let mut evaluator = Self { axes, colour_by, bounds: effort::Bounds::default(), model, forwards, opposite };
+        let mut evaluator =
+            Self { axes, colour_by, bounds: effort::Bounds::default(), model, forwards, opposite };
         if colour_by == ColourBy::Effort {
             evaluator.bounds = evaluator.bounds_of_efforts(work);
         }

@@ -2,7 +2,8 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status,
+    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, Solution, SolveReport, SpeedChange,
+    Status,
 };
 use crate::units::brief;
 
