@@ -2951,8 +2951,8 @@ class SolveReport(_mixins.SolveReport, Report):
     """Where there is no solution: groups of contacts that admit none, whatever the others do."""
     jam_impulses: tuple[JamImpulse, ...] | None
     """Where there is no solution while contacts that may lift off slide: the impulses without collision that can
-    act instead, of which none may be possible where drives prescribe the motion. Absent elsewhere, and where
-    margins are not asked for."""
+    act instead, of which none may be possible where drives prescribe the motion. Absent elsewhere, where they
+    are not known, and where margins are not asked for."""
     margins: Margins | None
     """By which factors all friction may grow; absent if that was not computed."""
     margins_missing: MarginsMissing | None

@@ -234,7 +234,7 @@ pub struct BlowUp {
 pub struct Course {
     /// Varied quantity, with its range.
     pub vary: VariedQuantity,
-    /// Motion as in the model, and with all rates reversed; at rest on contacts that may lift off only the first.
+    /// Motion as in the model, and with all rates reversed.
     pub directions: Vec<CourseDirection>,
     /// Whether the values at which something changes were sought between sampled ones, so that some may be missed.
     pub sampled: bool,

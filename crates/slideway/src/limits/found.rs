@@ -16,7 +16,7 @@ pub(crate) struct ModesFound {
     pub(crate) counts: Vec<CountInterval>,
     /// How the number of solutions of each of `counts` is known.
     pub(crate) known: Vec<Knowledge>,
-    /// For each of `counts` how each state starts, in words, where contacts that may lift off are at rest. Empty if they are nowhere.
+    /// For each of `counts` how each state starts, in words, where contacts that may lift off are at rest. Empty if nowhere.
     pub(crate) starts: Vec<Option<Vec<String>>>,
     pub(crate) gaps: Vec<Gap>,
     pub(crate) method: Method,
