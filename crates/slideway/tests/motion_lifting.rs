@@ -220,7 +220,7 @@ fn a_block_rocks_to_rest() {
 #[test]
 fn a_box_tips_while_it_slides() {
     let (b, h, mu, slope) = (0.2, 0.4, 0.6, 20_f64.to_radians());
-    let text = include_str!("../../../docs/src/examples/box-on-incline.toml");
+    let text = include_str!("../models/box-on-incline.toml");
     let text = text.replace("9.81 m/s^2", &format!("{G} m/s^2"));
     let history = history(&text, 0.1);
     assert_eq!(history.end, End::Finished, "{:#?}", words(&history));

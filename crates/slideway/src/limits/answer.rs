@@ -228,7 +228,7 @@ impl Naming {
                 tipping: tipping.clone(),
                 proven: known.proven.clone(),
                 spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
-                starts: found.starts.get(index).cloned(),
+                starts: found.starts.get(index).cloned().flatten(),
             }
         };
         Direction {
