@@ -352,17 +352,17 @@ pub enum FaultKind {
     NotFinite { what: String },
     #[error("the loads or drives grow without bound")]
     LoadsWithoutBounds,
-    #[error("the impact of {} on the stops can have several outcomes", joints.join(" and "))]
+    #[error("the impact of {} can have several outcomes", joints.join(" and "))]
     SeveralImpacts { joints: Vec<String> },
-    #[error("the impact of {} on the stops could not be decided: not all possible impulses were found", joints.join(" and "))]
+    #[error("the impact of {} could not be decided: not all possible impulses were found", joints.join(" and "))]
     UnsolvedImpact { joints: Vec<String> },
     #[error(
-        "the impact of {} on the stop has no possible impulse: friction wedges what moves first",
+        "the impact of {} has no possible impulse: friction wedges what moves first",
         joints.join(" and ")
     )]
     ImpactWedges { joints: Vec<String> },
     #[error(
-        "the impact of {} on the stop has no possible impulse: {} would tip",
+        "the impact of {} has no possible impulse: {} would tip",
         joints.join(" and "),
         tipping.join(" and ")
     )]
@@ -425,7 +425,7 @@ pub enum FaultKind {
         listed(contacts)
     )]
     OneSidedInExcess { contacts: Vec<String> },
-    #[error("a disc that does not slide may roll, which motions do not follow: {}", listed(contacts))]
+    #[error("motions do not follow a disc that may roll: {}", listed(contacts))]
     DiscAtRest { contacts: Vec<String> },
     #[error(
         "when {} lifted off, the acceleration could not be computed, as what moves then has no mass: {motion}",
@@ -811,7 +811,7 @@ impl FaultKind {
                 Some("omit `static_friction_radius` to make it equal to `friction_radius`")
             }
             Self::SeveralImpacts { joints } if joints.len() > 1 => {
-                Some("friction decides which stop pushes; change the travel of one of them a little")
+                Some("friction decides which of them pushes; change where one of them hits a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),
             Self::Syntax { message }

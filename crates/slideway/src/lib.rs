@@ -75,6 +75,7 @@ pub mod map;
 pub mod mechanism;
 pub mod model;
 pub mod motion;
+mod one_face;
 mod pattern;
 mod problem;
 pub mod raw_problem;

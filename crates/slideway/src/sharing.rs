@@ -63,6 +63,19 @@ pub(crate) fn is_rigid(shared: &SharedLoad) -> bool {
     shared.compliance.iter().all(|compliance| *compliance == 0.0)
 }
 
+/// Refuses rigid guides that are out of line by more than their play.
+///
+/// # Errors
+/// A fault that names the contacts that share a load.
+pub(crate) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Result<(), Faults> {
+    let Some(out) = is_rigid(shared).then(|| shared.out_of_line()).flatten() else { return Ok(()) };
+    let contacts = || out.iter().map(|&k| &mechanism.contacts[k]);
+    let kind =
+        FaultKind::OutOfLine { contacts: contacts().map(|contact| contact.name.to_string()).collect() };
+    let joint = mechanism.contacts[shared.cut[0]].joint;
+    Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into())
+}
+
 /// How redundant guides share their load, in names, given their self-stresses; none if nothing is in excess.
 ///
 /// # Errors

@@ -40,6 +40,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ),
     ("attainability", &["configuration", "ids", "kinetics", "mechanism", "modes", "report", "sharing"]),
     ("pattern", &["configuration", "ids", "mechanism", "model", "modes", "progress", "units"]),
+    ("one_face", &["configuration", "ids", "influence", "kinetics", "mechanism", "model", "report"]),
     ("import", &["drawing", "expression", "fault", "model", "printable", "progress"]),
     ("raw_problem", &["report"]),
     ("gallery", &[]),

@@ -331,7 +331,7 @@ fn of_map(outcome: Outcome) -> First {
         SlowsDown => Never("a map counts solutions; coloured by motion it says what becomes of the speed"),
         Undecided => Line(
             mapped("drawer", &VERGE, ["m=1 kg..2 kg", "Q=1 N..30 N"]),
-            "100 % of the map: not decided, on the verge of jamming, take it as jammed.",
+            "100 % of the map: not decided, it is on the verge of jamming; take it as jammed.",
         ),
         Interrupted => {
             let options =

@@ -434,9 +434,8 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     let mut used: Vec<_> = words.into_iter().filter(|(class, _)| occurs(class)).collect();
     // They have one colour, and so one entry.
     if [Class::Reaction, Class::PinForce].iter().all(occurs) {
-        let pin =
-            used.iter().position(|(class, _)| *class == Class::PinForce).map(|place| used.remove(place));
-        used[0].1.extend(pin.map(|(_, words)| format!("; {words}")));
+        used.retain(|(class, _)| *class != Class::PinForce);
+        used[0].1.push_str("; force of a pin");
     }
     let mut corner = Point::new(0.0, y + 18.0);
     for (class, text) in &used {

@@ -1520,10 +1520,10 @@ class DriveReport(_mixins.DriveReport, Report):
     drives: tuple[DriveName, ...]
     """The drives; all lists of efforts have their order."""
     directions: tuple[DriveDirection, ...]
-    """Motion as in the model, and with all rates reversed."""
+    """Motion as in the model, and with all rates reversed; at rest on contacts that may lift off only the first."""
     held: tuple[HeldEffort, ...]
     """At rest on contacts that may lift off: the efforts of each drive, the others absent, with which it stays
-    at rest; any other sets it in motion. Absent elsewhere."""
+    at rest; any other may set it in motion. Absent elsewhere, and where `hold` does not know."""
     course: Course | None
     """The efforts over what is varied, if anything is."""
     conclusion: tuple[str, ...]
@@ -2951,8 +2951,8 @@ class SolveReport(_mixins.SolveReport, Report):
     """Where there is no solution: groups of contacts that admit none, whatever the others do."""
     jam_impulses: tuple[JamImpulse, ...] | None
     """Where there is no solution while contacts that may lift off slide: the impulses without collision that can
-    act instead, of which none may be possible where drives prescribe the motion. Absent elsewhere, and where
-    margins are not asked for."""
+    act instead, of which none may be possible where drives prescribe the motion. Absent elsewhere, where they
+    are not known, and where margins are not asked for."""
     margins: Margins | None
     """By which factors all friction may grow; absent if that was not computed."""
     margins_missing: MarginsMissing | None

@@ -125,18 +125,19 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
         name: drive.name.to_string(),
         unit: if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" },
     });
-    let (state, forwards) = state::direction(model, Sense::Model, work.part(0, 4))?;
-    let mut directions = vec![forwards];
-    let held = held(model, work.part(1, 4))?;
-    // At rest both directions are one.
-    if held.is_empty() {
-        directions.push(state::direction(&reversed, Sense::Reversed, work.part(1, 4))?.1);
+    let state = state::direction(model, Sense::Model, work.part(0, 4))?;
+    let (mut directions, mut held) = (vec![state.direction], Vec::new());
+    if state.is_at_rest {
+        // Both directions are one; the efforts are known even where it is not which of them hold.
+        held = with_which_it_holds(model, work.part(1, 4)).unwrap_or_default();
+    } else {
+        directions.push(state::direction(&reversed, Sense::Reversed, work.part(1, 4))?.direction);
     }
     let mut report = DriveReport {
         schema: SCHEMA,
         title: model.title.clone(),
         units: model.units.clone(),
-        state,
+        state: state.coordinates,
         drives: drives.collect(),
         directions,
         held,
@@ -148,14 +149,11 @@ fn drive_of(model: &Model, options: &DriveOptions, work: Work<'_>) -> Result<Dri
     finite(report)
 }
 
-/// With which efforts of each drive it stays at rest, if it is at rest on contacts that may lift off.
+/// With which efforts of each drive it stays at rest.
 ///
 /// # Errors
 /// Whatever [`hold`](crate::standstill::hold) refuses.
-fn held(model: &Model, work: Work<'_>) -> Result<Vec<HeldEffort>, Faults> {
-    if !Stages::of_any_model(model)?.is_at_rest() {
-        return Ok(Vec::new());
-    }
+fn with_which_it_holds(model: &Model, work: Work<'_>) -> Result<Vec<HeldEffort>, Faults> {
     let of_drive = |drive: &crate::model::Drive| {
         let found = hold_within(model, &HoldOptions::default().load(&drive.name), work)?;
         let words = found.answer();

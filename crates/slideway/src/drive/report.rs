@@ -24,10 +24,10 @@ pub struct DriveReport {
     pub state: Vec<CoordinateState>,
     /// The drives; all lists of efforts have their order.
     pub drives: Vec<DriveName>,
-    /// Motion as in the model, and with all rates reversed.
+    /// Motion as in the model, and with all rates reversed; at rest on contacts that may lift off only the first.
     pub directions: Vec<DriveDirection>,
     /// At rest on contacts that may lift off: the efforts of each drive, the others absent, with which it stays at rest; any
-    /// other sets it in motion. Absent elsewhere.
+    /// other may set it in motion. Absent elsewhere, and where `hold` does not know.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub held: Vec<HeldEffort>,
     /// The efforts over what is varied, if anything is.

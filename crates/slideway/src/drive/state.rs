@@ -17,15 +17,20 @@ const FACTORS: [[f64; 2]; 2] = [[0.0, 1.0], [1.0, f64::INFINITY]];
 /// Blow-ups of a mode at the same factor count once.
 const SAME: f64 = 1e-12;
 
+/// A model in its state.
+pub(super) struct State {
+    pub(super) coordinates: Vec<CoordinateState>,
+    /// The efforts in its direction of motion.
+    pub(super) direction: DriveDirection,
+    /// Whether it is at rest on contacts that may lift off.
+    pub(super) is_at_rest: bool,
+}
+
 /// The efforts in one direction of motion, and the state.
 ///
 /// # Errors
 /// Whatever `solve` refuses.
-pub(super) fn direction(
-    model: &Model,
-    direction: Sense,
-    work: Work<'_>,
-) -> Result<(Vec<CoordinateState>, DriveDirection), Faults> {
+pub(super) fn direction(model: &Model, direction: Sense, work: Work<'_>) -> Result<State, Faults> {
     let mechanism = Mechanism::new(model)?;
     let mut goes_on = |progress: &Progress| work.part(0, 2).tell(progress);
     let configuration = Configuration::with_progress(&mechanism, &mut goes_on)?;
@@ -50,7 +55,7 @@ pub(super) fn direction(
         blow_ups: blow_ups(&stages, work.part(1, 2))?,
         frictionless,
     };
-    Ok((report.state, found))
+    Ok(State { coordinates: report.state, direction: found, is_at_rest: stages.is_at_rest() })
 }
 
 /// The coefficient of friction, if there is one.

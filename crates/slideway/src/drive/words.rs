@@ -131,7 +131,9 @@ fn as_block(direction: &DriveDirection) -> &'static str {
 
 /// "push needs 36.36 N (20 N without friction): efficiency 55 %"
 fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
-    let may_be_idle = report.drives.len() == 1 && report.held.is_empty();
+    // Both directions are one.
+    let is_at_rest = report.directions.len() == 1;
+    let may_be_idle = report.drives.len() == 1 && !is_at_rest;
     let is_idle = only.efficiency.is == EfficiencyKind::NoPower && may_be_idle;
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
@@ -149,12 +151,13 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
         _ if is_idle => ", all of it against friction".to_owned(),
         (EfficiencyKind::Driving, Some(value)) => format!(": efficiency {}", percent(value)),
         (EfficiencyKind::Braking, Some(value)) => {
-            let comma = if needs.iter().any(|need| need.ends_with("without friction")) { "," } else { "" };
+            let comma = if needs.iter().any(|need| need.ends_with("friction")) { "," } else { "" };
             format!("{comma} to brake the load: efficiency {}", percent(value))
         }
         (EfficiencyKind::HeldByFriction, _) => {
             return format!("friction holds the load: to move it, {}", needs.join(", "));
         }
+        (EfficiencyKind::NoPower, _) if is_at_rest => String::new(),
         (EfficiencyKind::NoPower, _) => "; without friction the motion needs no power".to_owned(),
         _ => "; without friction the drives push, with it they brake".to_owned(),
     };

@@ -62,7 +62,7 @@ impl NoSliding {
                 hold(face)
             ),
             Self::Starts => format!(
-                "it may stick, begin to slide or lift off: `{}`, `drive`, `limits`, `sweep` and `map` have all states, as far as what else has friction slides; {}",
+                "it may stick, begin to slide or lift off: `{}`, `drive`, `limits`, `sweep` and `map` list all of its states, if everything else with friction slides; {}",
                 face.question("solve"),
                 hold(face)
             ),

@@ -80,7 +80,7 @@ impl Naming {
             let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
             let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
             let mode = joint_mode_in_words(&self.mechanism, slider, tangent, &signs);
-            JointMode { name: name.to_owned(), mode }
+            JointMode { name: name.to_owned(), mode, start: None }
         };
         self.sliders().map(one).collect()
     }
@@ -228,7 +228,7 @@ impl Naming {
                 tipping: tipping.clone(),
                 proven: known.proven.clone(),
                 spacing: if let Elsewhere::Sampled(spacing) = known.elsewhere { Some(spacing) } else { None },
-                starts: found.starts.get(index).cloned(),
+                starts: found.starts.get(index).cloned().flatten(),
             }
         };
         Direction {

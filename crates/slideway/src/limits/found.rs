@@ -16,8 +16,8 @@ pub(crate) struct ModesFound {
     pub(crate) counts: Vec<CountInterval>,
     /// How the number of solutions of each of `counts` is known.
     pub(crate) known: Vec<Knowledge>,
-    /// Where contacts that may lift off are at rest: for each of `counts` how each state starts, in words. Empty elsewhere.
-    pub(crate) starts: Vec<Vec<String>>,
+    /// For each of `counts` how each state starts, in words, where contacts that may lift off are at rest. Empty if nowhere.
+    pub(crate) starts: Vec<Option<Vec<String>>>,
     pub(crate) gaps: Vec<Gap>,
     pub(crate) method: Method,
     /// Every value at which the mode problem was made.

@@ -28,7 +28,7 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
         match found {
             Ok(found) if same_ends.are_two(from, to) => {
                 counts.push(CountInterval { from, to, ..found.numbers });
-                starts.extend(found.starts);
+                starts.push(found.starts);
             }
             Ok(_) => {}
             Err(faults) => gaps.push(Gap { from, to, faults }),

@@ -101,8 +101,8 @@ pub(super) struct ClassKey(pub(super) ClassMeaning);
 pub(super) enum Answer {
     /// Its mode problem.
     Problem(Box<Point>),
-    /// With friction in hinges: its states.
-    States(States),
+    /// Where each point is solved by itself: its states; none if the search did not come to its end.
+    States(Option<States>),
 }
 
 impl Answer {
@@ -110,7 +110,7 @@ impl Answer {
     fn states(&self) -> Option<&States> {
         match self {
             Self::Problem(point) => point.states.as_ref(),
-            Self::States(states) => Some(states),
+            Self::States(states) => states.as_ref(),
         }
     }
 
@@ -120,7 +120,7 @@ impl Answer {
             Self::Problem(point) => {
                 point.states.as_ref().map_or_else(Vec::new, |states| efforts(point, states))
             }
-            Self::States(states) => states.efforts.clone(),
+            Self::States(states) => states.as_ref().map_or_else(Vec::new, |states| states.efforts.clone()),
         };
         efforts.into_iter().min_by(|one, other| one.abs().total_cmp(&other.abs()))
     }
@@ -181,7 +181,7 @@ pub(super) struct States {
 /// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone; `bounds` are those
 /// of the classes of `Effort`.
 pub(super) fn class(
-    (colour_by, bounds): (ColourBy, &[f64]),
+    (colour_by, bounds): (ColourBy, &effort::Bounds),
     forwards: Result<&Answer, &'static str>,
     opposite: Option<Result<&Answer, &'static str>>,
 ) -> ClassMeaning {

@@ -29,7 +29,7 @@ pub(super) struct Evaluator<'a> {
     axes: &'a [Axis; 2],
     colour_by: ColourBy,
     /// The bounds of the classes of efforts.
-    bounds: Vec<f64>,
+    bounds: effort::Bounds,
     model: &'a Model,
     /// Where mode problems come from; none where statics is asked.
     forwards: Option<Source>,
@@ -61,7 +61,8 @@ impl<'a> Evaluator<'a> {
         let source = |model: Model| Source::new(model, axes, colour_by).map(Some);
         let forwards = if colour_by == ColourBy::Hold { None } else { source(model.clone())? };
         let opposite = if colour_by == ColourBy::Jam { source(model.reversed())? } else { None };
-        let mut evaluator = Self { axes, colour_by, bounds: Vec::new(), model, forwards, opposite };
+        let mut evaluator =
+            Self { axes, colour_by, bounds: effort::Bounds::default(), model, forwards, opposite };
         if colour_by == ColourBy::Effort {
             evaluator.bounds = evaluator.bounds_of_efforts(work);
         }
@@ -69,8 +70,8 @@ impl<'a> Evaluator<'a> {
     }
 
     /// Returns bounds of classes of efforts, from those at evenly spaced points.
-    fn bounds_of_efforts(&self, work: Work<'_>) -> Vec<f64> {
-        let Some(source) = &self.forwards else { return Vec::new() };
+    fn bounds_of_efforts(&self, work: Work<'_>) -> effort::Bounds {
+        let Some(source) = &self.forwards else { return effort::Bounds::default() };
         let share = |place: usize| (place as f64 + 0.5) / SAMPLES as f64;
         let mut before = Before::default();
         let places = (0..SAMPLES).flat_map(|j| (0..SAMPLES).map(move |i| [share(i), share(j)]));

@@ -311,7 +311,7 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
         ClassMeaning::Rest { holds: Some(true), .. } => "holds".to_owned(),
         ClassMeaning::Rest { holds: Some(false), .. } => "does not hold".to_owned(),
         ClassMeaning::Rest { holds: None, .. } => "whether it holds is not decided".to_owned(),
-        ClassMeaning::Undecided => "not decided: on the verge of jamming, take it as jammed".to_owned(),
+        ClassMeaning::Undecided => "not decided: it is on the verge of jamming; take it as jammed".to_owned(),
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
@@ -325,7 +325,7 @@ fn effort(model: &Model, from: Option<f64>, to: Option<f64>) -> String {
         (Some(from), Some(to)) => format!("{} to {}", unit.precise_number(from), unit.precise(to)),
         (Some(from), None) => format!("{} or more", unit.precise(from)),
         (None, Some(to)) => format!("less than {}", unit.precise(to)),
-        (None, None) => format!("any {}", if unit.si() == "N" { "force" } else { "torque" }),
+        (None, None) => format!("some {}", if unit.si() == "N" { "force" } else { "torque" }),
     };
     let name = model.drives.first().map_or_else(String::new, |drive| drive.name.to_string());
     format!("{name} needs {range}")

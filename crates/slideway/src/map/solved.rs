@@ -16,7 +16,8 @@ use crate::solve::{
 const NO_ACCELERATION: f64 = 1e-9;
 
 /// All states of a point, with the margin of an only solution for a map by margin. `model` makes its model for a careful
-/// answer, which is given if `careful` says so: what becomes of the speeds and whether guided sliders tip needs one.
+/// answer, which is given if `careful` says so: what becomes of the speeds and whether guided sliders tip needs one. None if
+/// the search did not come to its end.
 ///
 /// # Errors
 /// Whatever `solve` refuses.
@@ -26,9 +27,11 @@ pub(super) fn states(
     (colour_by, careful): (ColourBy, bool),
     last: &mut LastSolution,
     work: Work<'_>,
-) -> Result<States, Faults> {
+) -> Result<Option<States>, Faults> {
     let mut states = all_states(stages, model, careful, last, work)?;
-    if colour_by == ColourBy::Margin && states.solutions.len() == 1 {
+    if colour_by == ColourBy::Margin
+        && let Some(states) = states.as_mut().filter(|states| states.solutions.len() == 1)
+    {
         let bounds = &MARGINS[..MARGINS.len() - 1];
         states.margin = factors_with_one_solution(stages, bounds, work)?.map(margin_up_to);
     }
@@ -41,16 +44,16 @@ fn all_states(
     careful: bool,
     last: &mut LastSolution,
     work: Work<'_>,
-) -> Result<States, Faults> {
+) -> Result<Option<States>, Faults> {
     let mut goes_on = |_: &Progress| work.flow();
     if !careful
         && let Some(found) =
             block_states((stages.data(), &stages.configuration), stages.accuracy, last, &mut goes_on)?
     {
-        return Ok(of_found(&found));
+        return Ok(Some(of_found(&found)));
     }
     let report = solve_in(&model()?, stages, &SolveOptions::default(), &mut goes_on)?;
-    Ok(of_report(&report, stages))
+    Ok((!report.partial).then(|| of_report(&report, stages)))
 }
 
 fn of_found(found: &[BlockState]) -> States {

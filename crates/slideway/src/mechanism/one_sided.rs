@@ -25,6 +25,11 @@ impl<T: Real> Slider<T> {
 }
 
 impl<T> Mechanism<T> {
+    /// Whether some contacts may lift off.
+    pub(crate) fn has_one_sided(&self) -> bool {
+        self.contacts.iter().any(|contact| contact.opens)
+    }
+
     /// Returns whether a joint may lift off its face, or is apart from it.
     pub fn may_lift_off(&self, slider: &Slider<T>) -> bool {
         !slider.apart.is_empty() || slider.contacts.iter().any(|contact| self.contacts[contact.index()].opens)

@@ -28,7 +28,8 @@ impl Phase {
         let sign = |k: usize| {
             if sticks(k) && !self.is_open(mechanism, k) { '=' } else { self.contacts[k].symbol() }
         };
-        let contacts = 0..self.contacts.len();
+        // A motion has further contacts behind those of the state: what was apart in it.
+        let contacts = 0..self.contacts.len().min(mechanism.contacts.len());
         contacts.map(sign).chain(self.hinges.iter().map(|hinge| hinge.state.symbol())).collect()
     }
 

@@ -2,7 +2,8 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, Margins, MarginsMissing, Solution, SolveReport, SpeedChange, Status,
+    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, Solution, SolveReport, SpeedChange,
+    Status,
 };
 use crate::units::brief;
 
@@ -43,18 +44,22 @@ impl SolveReport {
     }
 
     /// What the joints do that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint
-    /// is at rest.
+    /// is at rest. Without numbers, so that the same start has the same words in another state.
     pub(crate) fn starts(&self) -> Option<Vec<String>> {
+        self.starts_in(|joint| joint.start.as_ref().unwrap_or(&joint.mode))
+    }
+
+    fn starts_in(&self, words: impl Fn(&JointMode) -> &String) -> Option<Vec<String>> {
         let start = |solution: &Solution| {
             let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
-            joints.map(|joint| format!("{}: {}", joint.name, joint.mode)).collect::<Vec<_>>().join("; ")
+            joints.map(|joint| format!("{}: {}", joint.name, words(joint))).collect::<Vec<_>>().join("; ")
         };
         (!self.at_rest.is_empty()).then(|| self.solutions.iter().map(start).collect())
     }
 
     /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
     fn start_in_words(&self) -> Option<String> {
-        let starts = self.starts()?;
+        let starts = self.starts_in(|joint| &joint.mode)?;
         let unique = if self.every_load_has_one_state == Some(true) {
             " Every load has exactly one state."
         } else {
@@ -80,12 +85,13 @@ impl SolveReport {
     fn impulse_in_words(&self) -> Option<String> {
         let after = |impulse: &JamImpulse| {
             let joints = impulse.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode));
-            let energy = self.model.units.of("J").show(impulse.energy_lost);
-            format!("{} (it takes {energy})", joints.collect::<Vec<_>>().join("; "))
+            let energy = self.model.units.of("J").show(impulse.energy_lost.abs());
+            let what = if impulse.energy_lost < 0.0 { "gained" } else { "lost" };
+            format!("{} ({energy} of kinetic energy is {what})", joints.collect::<Vec<_>>().join("; "))
         };
         Some(match self.jam_impulses.as_deref()? {
             [] if self.model.drives > 0 => {
-                "No impulse without collision ends that, either: its drives stall.".to_owned()
+                "No impulse without a collision ends the jam either: the drives stall.".to_owned()
             }
             [] => return None,
             [only] => format!("Velocities jump without a collision. Afterwards {}.", after(only)),

@@ -158,7 +158,8 @@ pub struct SolveReport {
     /// Where there is no solution: groups of contacts that admit none, whatever the others do.
     pub jammed_groups: Vec<Vec<String>>,
     /// Where there is no solution while contacts that may lift off slide: the impulses without collision that can act instead, of
-    /// which none may be possible where drives prescribe the motion. Absent elsewhere, and where margins are not asked for.
+    /// which none may be possible where drives prescribe the motion. Absent elsewhere, where they are not known, and where margins
+    /// are not asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub jam_impulses: Option<Vec<JamImpulse>>,
     /// By which factors all friction may grow; absent if that was not computed.
@@ -651,6 +652,9 @@ pub struct JointMode {
     pub name: String,
     /// The mode in words: "touching at lower right and upper left".
     pub mode: String,
+    /// The mode of a joint at rest that starts to slide, without numbers: "closed, slides forwards".
+    #[serde(skip)]
+    pub(crate) start: Option<String>,
 }
 
 /// A hinge force.

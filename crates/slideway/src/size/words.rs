@@ -154,11 +154,11 @@ impl Words<'_> {
         let wedged = match report.wedged {
             None => String::new(),
             Some(margin) if margin >= 1.0 - SAME => {
-                format!("; only while wedged it does, with a safety factor of {}", brief(margin))
+                format!("; it holds only while wedged, with a safety factor of {}", brief(margin))
             }
             Some(margin) => {
                 let growth = brief(margin.recip());
-                format!("; only while wedged it would, from {growth} times its static friction on")
+                format!("; even wedged it would hold only from {growth} times its static friction on")
             }
         };
         format!("{model}: {told}{wedged}.")

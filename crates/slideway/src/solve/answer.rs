@@ -672,7 +672,7 @@ pub(super) fn joint_modes(
         let tangent = configuration.slide(mechanism, slider).tangent;
         let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
         let mode = joint_mode_in_words(mechanism, slider, tangent, &signs);
-        Some(report::JointMode { name: joint.name.to_string(), mode })
+        Some(report::JointMode { name: joint.name.to_string(), mode, start: None })
     };
     mechanism.joints.iter().filter_map(one).collect()
 }

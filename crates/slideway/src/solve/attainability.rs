@@ -92,7 +92,7 @@ impl Answer<'_> {
                 "the block floats within its play"
             });
         }
-        let may_open = self.mechanism.one_sided().next().is_some();
+        let may_open = self.mechanism.has_one_sided();
         if solutions.iter().all(is_on_boundary) && self.shared.is_none() && !may_open {
             return Ok(());
         }
@@ -138,7 +138,7 @@ impl Answer<'_> {
         let candidates: Vec<Candidate> =
             inside.iter().map(|&index| closed.candidate(&solutions[index])).collect();
         // What lies beside a solution is followed between faces that press on both sides only.
-        let all = if self.mechanism.one_sided().next().is_some() {
+        let all = if self.mechanism.has_one_sided() {
             candidates.iter().map(|candidate| guides.of(&candidate.states)).collect()
         } else {
             guides.attainability(&candidates)

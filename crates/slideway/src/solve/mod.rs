@@ -32,7 +32,6 @@ mod locking;
 mod margins;
 mod mode_problem;
 mod no_sliding;
-mod one_face;
 mod parts;
 mod resting;
 mod sharing;
@@ -56,9 +55,8 @@ pub use locking::{Locking, locking};
 pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_change};
 pub(crate) use mode_problem::{ProblemData, Sliding, sides, sliding_signs};
 pub use mode_problem::{mode_problem, velocity_signs};
-pub(crate) use one_face::{NormalForces, Pressed, one_face_hints};
 pub(crate) use parts::Parts;
-pub(crate) use sharing::{check_assembly, load_sharing};
+pub(crate) use sharing::load_sharing;
 pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
 pub(crate) use standing::{check_none_stands, check_standing};
@@ -79,6 +77,7 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
+use crate::one_face;
 use crate::progress::{Callback, Progress};
 use crate::report::{SolveReport, Status, finite};
 use std::ops::ControlFlow;
@@ -152,11 +151,14 @@ pub fn solve_with(
     mechanism.check_size()?;
     let configuration = Configuration::with_progress(&mechanism, progress)?;
     let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
-    let state = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
-    answered(model, (&state.0, &state.1), &model.ranges()?, options, progress)
+    let (stages, equations) = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
+    let mut report = answered(model, (&stages, &equations), &model.ranges()?, options, progress)?;
+    report.one_face_hints =
+        one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
+    Ok(report)
 }
 
-/// [`solve_with`] in stages of the model that are there already, without margins and uncertainty.
+/// [`solve_with`] in stages of the model that are there already, without margins, uncertainty and hints.
 ///
 /// # Errors
 /// As [`solve`].
@@ -195,8 +197,6 @@ fn answered(
         if options.margins && !at_rest {
             from_rest::add(&mut report, model, progress);
         }
-        report.one_face_hints =
-            one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
         report.suit_units();
         return finite(report);
     }
@@ -231,8 +231,6 @@ fn answered(
         }
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
-    report.one_face_hints =
-        one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
     report.suit_units();
     finite(report)
 }

@@ -3,7 +3,6 @@
 use super::no_sliding::why;
 use super::parts::Parts;
 use super::resting::may_lift_off;
-use super::sharing::check_assembly;
 use super::tolerant::StatesWithinTolerances;
 use crate::configuration::{Configuration, staying};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
@@ -18,7 +17,7 @@ use crate::problem::{
     NO_INFLUENCE, ProblemCoefficients, TurningHinge, friction_of_contacts, preload_columns, without_rounding,
 };
 use crate::progress::Progress;
-use crate::sharing::{shared_load, stress_force};
+use crate::sharing::{check_assembly, shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
 use std::ops::{ControlFlow, Range};
 

@@ -4,7 +4,7 @@ use super::mode_problem::self_stresses;
 use super::stages::Stages;
 use super::tolerant::StatesWithinTolerances;
 use crate::attainability::ratios;
-use crate::fault::{Fault, FaultKind, Faults};
+use crate::fault::Faults;
 use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::mechanism::Mechanism;
@@ -36,19 +36,6 @@ pub(crate) fn load_sharing(
     influence: &Influence,
 ) -> Result<Option<LoadSharing>, Faults> {
     sharing::load_sharing(mechanism, &self_stresses(influence))
-}
-
-/// Refuses rigid guides that are out of line by more than their play.
-///
-/// # Errors
-/// A fault that names the contacts that share a load.
-pub(crate) fn check_assembly(mechanism: &Mechanism, shared: &SharedLoad) -> Result<(), Faults> {
-    let Some(out) = sharing::is_rigid(shared).then(|| shared.out_of_line()).flatten() else { return Ok(()) };
-    let contacts = || out.iter().map(|&k| &mechanism.contacts[k]);
-    let kind =
-        FaultKind::OutOfLine { contacts: contacts().map(|contact| contact.name.to_string()).collect() };
-    let joint = mechanism.contacts[shared.cut[0]].joint;
-    Err(Fault::new(kind, mechanism.joints[joint.index()].place.clone()).into())
 }
 
 /// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if they are not all

@@ -3,7 +3,6 @@
 use super::mode_problem::{ProblemData, Sliding, mode_problem, none_stands, self_stresses};
 use super::parts::Parts;
 use super::resting::may_lift_off;
-use super::sharing::check_assembly;
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
@@ -14,7 +13,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::{ModeProblem, SharedLoad};
 use crate::report::Elasticity;
-use crate::sharing::{elasticity, shared_load};
+use crate::sharing::{check_assembly, elasticity, shared_load};
 use nalgebra::DVector;
 
 /// The mode problem of a model in floating point: a problem with exact numbers, which differ from those of the

@@ -14,7 +14,8 @@ pub(crate) struct StatesWithinTolerances {
     pub(crate) states: Vec<StateWithinTolerances>,
     /// Whether there are infinitely many besides.
     pub(crate) continuum: bool,
-    /// Whether a pattern is so near to a boundary that rounding may hide a state.
+    /// Whether rounding may hide a state: a pattern is too near to a boundary for elimination, or there are too many contacts
+    /// for it, so that no distance from boundaries is known.
     pub(crate) in_doubt: bool,
 }
 

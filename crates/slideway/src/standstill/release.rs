@@ -68,7 +68,7 @@ impl Over<Vec<Release>> {
 /// The states with these signs if hinges turn in them, the friction of what sticks is determined, guides share no load and
 /// nothing may lift off, so that their forces are isolated: then the search of the block mode problem finds all of them, or says that it does not.
 fn isolated(setup: &Setup, signs: &Pattern, motions: &DMatrix<f64>, work: Work<'_>) -> Option<TurningStates> {
-    let may_lift_off = setup.mechanism.one_sided().next().is_some();
+    let may_lift_off = setup.mechanism.has_one_sided();
     if setup.shared.is_some()
         || may_lift_off
         || signs.hinges.iter().all(|hinge| *hinge == JointPhase::Sticking)

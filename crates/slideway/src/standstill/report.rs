@@ -1,7 +1,7 @@
 //! What the analysis of standstill tells, as plain data.
 
+use crate::one_face::NormalForces;
 use crate::report::{CoordinateState, LoadSharing, OneFaceHint};
-use crate::solve::NormalForces;
 use crate::units::Units;
 use serde::Serialize;
 

@@ -11,8 +11,8 @@ use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
 use crate::progress::Work;
+use crate::sharing::check_assembly;
 use crate::sharing::{is_rigid, shared_load, stress_force};
-use crate::solve::check_assembly;
 use nalgebra::{DMatrix, DVector, DVectorView, RowDVector, Vector2};
 
 /// Units of the linear programs.

@@ -9,8 +9,9 @@ use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
 use crate::modes::{ContactState, InfluenceCoefficients, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
-use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
-use crate::problem::{preload_columns, without_rounding};
+use crate::problem::{
+    ProblemCoefficients, TurningHinge, friction_of_contacts, preload_columns, without_rounding,
+};
 use crate::progress::Callback;
 use nalgebra::{DMatrix, DVector, RowDVector};
 

@@ -185,7 +185,7 @@ fn write(
         return Ok(Writer { plan, mechanism, stages, guides: None, hinges: &[] }.write(states, point, rows));
     }
     // What lifts off is not there, in each state something else.
-    if mechanism.one_sided().next().is_some() {
+    if mechanism.has_one_sided() {
         return Ok(false);
     }
     let problem = mode_problem(mechanism, &stages.influence, &stages.signs)?;

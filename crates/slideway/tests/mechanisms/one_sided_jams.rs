@@ -17,14 +17,14 @@ fn an_impulse_without_collision_ends_the_jam_of_the_rod() {
     assert_close(only.contacts[0].normal_impulse, 0.3, 1.0, 1e-12);
     assert_close(only.contacts[0].friction_impulse, 0.4, 1.0, 1e-12);
     assert_close(only.energy_lost, 0.2, 1.0, 1e-12);
-    let jumps = "Velocities jump without a collision. Afterwards P: closed, sticks (it takes 0.2 J).";
+    let jumps = "Velocities jump without a collision. Afterwards P: closed, sticks (0.2 J of kinetic energy is lost).";
     assert!(report.answer().ends_with(jumps), "{}", report.answer());
     // Rolls that are driven let nothing stop: the disc would have to go through their gap.
     let rolls = include_str!("../../models/nip-of-rolls.toml").replace("mu = 0.3", "mu = 0.45");
     let report = report_on(&rolls);
     assert_eq!(report.jam_impulses.as_deref(), Some(&[][..]));
     assert!(
-        report.answer().ends_with("No impulse without collision ends that, either: its drives stall."),
+        report.answer().ends_with("No impulse without a collision ends the jam either: the drives stall."),
         "{}",
         report.answer()
     );

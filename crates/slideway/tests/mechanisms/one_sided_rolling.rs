@@ -160,6 +160,24 @@ fn limits_find_where_a_box_begins_to_tip(
     assert!(tips.starts.as_ref().unwrap()[0].ends_with("it tips, sticks"), "{:?}", tips.starts);
 }
 
+/// A box at rest on a slope slides from `tan(slope) = mu` on, flat as `mu < b/h`. The direction in which it does turns with the slope;
+/// what it does is the same, for `limits` and for maps.
+#[test]
+fn how_it_starts_does_not_change_with_the_direction_of_the_face() {
+    let text = include_str!("../../models/box-on-incline.toml");
+    let model = Model::parse(&text.replace("rate = \"-1 m/s\"", "").replace("mu = 0.6", "mu = 0.3")).unwrap();
+    let [from, to] = [5.0, 60.0].map(f64::to_radians);
+    let found = limits(&model, &LimitsOptions::new(Vary::between("slope", from, to))).unwrap();
+    let [sticks, slides] = found.counts.as_slice() else { panic!("{:?}", found.counts) };
+    assert_close(sticks.to, 0.3_f64.atan(), 1.0, 1e-8);
+    assert_eq!(sticks.starts.as_deref(), Some(&["base: closed, sticks".to_owned()][..]));
+    assert_eq!(slides.starts.as_deref(), Some(&["base: closed, slides backwards".to_owned()][..]));
+    let options =
+        MapOptions::new(Vary::between("slope", from, to), Vary::between("mu", 0.3, 0.4)).size(20, 4);
+    let found = map(&model, &options.probe(1).colour_by(ColourBy::Modes)).unwrap();
+    assert_eq!(found.classes.len(), 2, "{:?}", found.classes);
+}
+
 /// Sweeps have the states of `solve` at every value, and maps tell where a disc rolls from where it is pushed into a slip.
 #[test]
 fn sweeps_and_maps_know_what_is_at_rest() {

@@ -26,13 +26,14 @@ use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::Verdict;
 use nalgebra::DVector;
 use std::cmp::Reverse;
+use std::rc::Rc;
 
 /// Below this part of the velocity of the least flight a gap does not open.
 const LITTLE_FLIGHT: f64 = 1e-3;
 
 /// A mechanism of which some contacts that may lift off are open.
 pub(super) struct Touching<'m> {
-    whole: &'m Mechanism,
+    pub(super) whole: &'m Mechanism,
     open: Vec<usize>,
     /// The contacts that are left, by their numbers in the whole.
     kept: Vec<usize>,
@@ -142,22 +143,24 @@ pub(super) fn continuations(event: &EventInstant<'_>) -> Result<Continuations, F
     let (apart, sets) = sets_of_open(event)?;
     let before = accelerations_before(event)?;
     let mut found = Continuations::default();
-    let mut candidates: Vec<(Candidate, Touching<'_>, Phase)> = Vec::new();
+    let mut candidates: Vec<(Candidate, Rc<Touching<'_>>, Phase)> = Vec::new();
     for left in sets {
         if event.work.is_over() {
             break;
         }
-        let successors = Touching::new(mechanism, &apart, &left).successors(event)?;
+        let touching = Rc::new(Touching::new(mechanism, &apart, &left));
+        let successors = touching.successors(event)?;
         found.left_out |= !successors.complete || !successors.unsolved.is_empty();
         for successor in successors.list {
-            let touching = Touching::new(mechanism, &apart, &left);
             let candidate = candidate(event, (&touching, &successor, left.len()), before.as_ref());
-            candidates.push((candidate, touching, successor.phase));
+            candidates.push((candidate, Rc::clone(&touching), successor.phase));
         }
     }
     if candidates.len() > 1 {
         for (candidate, touching, phase) in &mut candidates {
-            candidate.continuation.verdict = verdict_on(&touching.mechanism, event.configuration, phase);
+            if candidate.continuation.verdict == Verdict::NotComputed {
+                candidate.continuation.verdict = verdict_on(&touching.mechanism, event.configuration, phase);
+            }
         }
     }
     candidates.sort_by_key(|(candidate, ..)| {

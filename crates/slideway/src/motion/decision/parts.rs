@@ -250,10 +250,11 @@ impl PhaseSearch<'_> {
             }
             _ => None,
         };
-        // With hundreds of members each of these questions takes a while.
+        // With hundreds of members each of these questions takes a while. Once the work is to end nothing begins: whoever
+        // asks sees that, and stops.
         let is_over = || self.event.work.is_over();
         let moves = |number: usize| {
-            phase.of(number) != JointPhase::Sticking && (is_over() || self.instant.is_movable(number, &held))
+            phase.of(number) != JointPhase::Sticking && !is_over() && self.instant.is_movable(number, &held)
         };
         let later = !group.hinges.is_empty() && self.members(group).any(moves);
         let slipping: Vec<(usize, f64)> = self.members(group).filter_map(begins).collect();
@@ -263,6 +264,7 @@ impl PhaseSearch<'_> {
             .flat_map(|(index, one)| slipping[..index].iter().map(move |other| [*one, *other]));
         (later || !slipping.iter().any(|(number, _)| is_over() || self.instant.is_held(*number, &held)))
             && pairs.all(|pair| self.instant.can_begin_together(pair))
+            && !is_over()
     }
 
     /// What a group can do compared with what it did before; whether motions are continued is not determined

@@ -30,14 +30,14 @@ pub struct Thorough;
 
 impl Decisions for Thorough {
     fn successors(&mut self, instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
-        if may_lift_off(instant.mechanism) {
+        if instant.mechanism.has_one_sided() {
             return super::lifting::continuations(instant);
         }
         continuations(instant)
     }
 
     fn tipping(&mut self, instant: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> {
-        if may_lift_off(instant.mechanism) {
+        if instant.mechanism.has_one_sided() {
             return super::lifting::tipping(instant);
         }
         let found = super::continuations(instant)?;
@@ -63,7 +63,7 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<f64, Faults> {
-        if may_lift_off(mechanism) {
+        if mechanism.has_one_sided() {
             let touching = Touching::in_phase(mechanism, phase);
             return super::sticking_margin(&touching.mechanism, configuration, &touching.part_of(phase));
         }
@@ -76,7 +76,7 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
-        if may_lift_off(mechanism) {
+        if mechanism.has_one_sided() {
             return super::lifting::normal_forces(mechanism, configuration, phase);
         }
         let forces = super::determined_forces(mechanism, configuration, phase)?;
@@ -90,7 +90,7 @@ impl Decisions for Thorough {
         resting: Resting<'_>,
     ) -> Result<Option<Box<dyn Hold + 'm>>, Faults> {
         // Which contacts are open may change while bodies rest.
-        if may_lift_off(mechanism) {
+        if mechanism.has_one_sided() {
             return Ok(None);
         }
         // Friction of hinges is not affine in the loads: what has it is known to stay at rest if nothing changes.
@@ -110,11 +110,6 @@ impl Decisions for Thorough {
         let smooth = Resting { bodies: &of(false), ..resting };
         Ok(Some(Box::new(Holding::new(mechanism, configuration, smooth)?)))
     }
-}
-
-/// Whether some contacts may lift off.
-fn may_lift_off(mechanism: &Mechanism) -> bool {
-    mechanism.one_sided().next().is_some()
 }
 
 /// The phases in which a mechanism can go on.

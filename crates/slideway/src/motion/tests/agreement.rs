@@ -24,9 +24,10 @@ impl Numbers {
 }
 
 fn phase_of(equations: &Equations<'_>, solution: &Solution) -> Phase {
-    let contact = |sign: &i8| match sign {
+    let contact = |(k, sign): (usize, &i8)| match sign {
         0 => ContactPhase::PreloadGap,
         1 => ContactPhase::Pressed(Side::Positive),
+        _ if equations.mechanism.contacts[k].opens => ContactPhase::PreloadGap,
         _ => ContactPhase::Pressed(Side::Negative),
     };
     let joint = |joint: &crate::ids::JointId| {
@@ -39,7 +40,7 @@ fn phase_of(equations: &Equations<'_>, solution: &Solution) -> Phase {
     };
     Phase {
         joints: equations.sliders.iter().map(joint).collect(),
-        contacts: solution.signs.iter().map(contact).collect(),
+        contacts: solution.signs.iter().enumerate().map(contact).collect(),
         hinges: solution.hinges.iter().filter_map(hinge).collect(),
     }
 }

@@ -154,8 +154,10 @@ const fn balanced(name: &'static str, duration: f64, events: usize) -> Balanced 
 
 /// Every gallery model with inertia or a drive, so that something happens in each: driven ones are slowed down until
 /// they return, or go on through places where hinges turn back.
-const BALANCED: [Balanced; 23] = [
+const BALANCED: [Balanced; 31] = [
     balanced("bell-crank", 1.0, 0),
+    balanced("box-on-incline", 0.3, 1),
+    balanced("cam-and-spring", 0.3, 5),
     balanced("cam-follower", 1.0, 2),
     Balanced {
         replaced: Some(("acceleration = 0", "acceleration = \"-0.4 m/s^2\"")),
@@ -166,14 +168,20 @@ const BALANCED: [Balanced; 23] = [
     balanced("frictional-oscillator", 1.0, 5),
     balanced("klepp-2002", 1.0, 1),
     balanced("klepp-2002-spring", 1.0, 7),
+    Balanced { settings: &[("climbed", "1")], ..balanced("ladder", 0.3, 0) },
+    balanced("latch-with-pawl", 0.1, 1),
+    balanced("nip-of-rolls", 0.3, 0),
     balanced("over-centre-clamp", 0.5, 2),
     Balanced { settings: &[("direction", "-1")], ..balanced("painleve-klein", 1.0, 1) },
+    balanced("peg-in-hole", 0.5, 0),
     balanced("quick-return", 0.6, 2),
+    balanced("rod-on-floor", 0.3, 2),
     balanced("scotch-yoke", 0.2, 20),
     Balanced {
         replaced: Some(("acceleration = 0", "acceleration = \"-0.08 m/s^2\"")),
         ..balanced("screw", 1.0, 1)
     },
+    balanced("shaft-in-v-block", 0.3, 0),
     balanced("sleeve-on-arm", 1.0, 6),
     balanced("slider-crank", 0.1, 20),
     balanced("slider-crank-with-pins", 0.1, 20),

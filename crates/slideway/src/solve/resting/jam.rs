@@ -26,7 +26,7 @@ use nalgebra::{DVector, Vector2};
 const MOST_PATTERNS: u64 = 1 << 12;
 
 /// All impulses that can act at a jam, if contacts that may lift off slide and none is at rest; none as well where guides share a
-/// load, and for more patterns of states than are tried.
+/// load or could tip, and where it is not known of all patterns of states that they have none.
 pub(in crate::solve) fn impulses(stages: &Stages, equations: &KineticEquations) -> Option<Vec<JamImpulse>> {
     let Stages { mechanism, standing, .. } = stages;
     let opens: Vec<ContactId> = mechanism.one_sided().collect();
@@ -46,6 +46,9 @@ pub(in crate::solve) fn impulses(stages: &Stages, equations: &KineticEquations) 
     }
     let others = others(&stages);
     let answer = Answer::determinate(&stages, equations);
+    if answer.guided_sliders().next().is_some() {
+        return None;
+    }
     Jam { resting: Resting::new(&answer, joints, impulse), others }.impulses()
 }
 
@@ -57,10 +60,14 @@ fn others(stages: &Stages) -> Vec<(SlidingRow, f64)> {
         let first = *slider.contacts.first()?;
         let sign = velocity_signs[first.index()];
         let velocity = configuration.contact(mechanism, first).sliding_velocity;
-        (sign != 0.0).then(|| (SlidingRow::new(mechanism, configuration, slider), velocity))
+        let rubs = slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].may_hold());
+        (sign != 0.0 && rubs).then(|| (SlidingRow::new(mechanism, configuration, slider), velocity))
     };
     mechanism.joints.iter().filter_map(of_joint).collect()
 }
+
+/// The impulse of a pattern is not known.
+struct NotTried;
 
 struct Jam<'a> {
     /// With velocities in place of accelerations, and impulses in place of forces.
@@ -69,26 +76,43 @@ struct Jam<'a> {
 }
 
 impl Jam<'_> {
+    /// The impulses of all patterns; none if there are too many, or if there is no impulse and some patterns are not tried.
     fn impulses(&self) -> Option<Vec<JamImpulse>> {
         let patterns = self.resting.patterns(MOST_PATTERNS).ok()?;
         let sticks = |start: &Option<Start>| *start == Some(Start::Sticks);
         let wedged = patterns.into_iter().filter(|pattern| pattern.starts.iter().any(sticks));
         let systems = wedged.map(|pattern| self.resting.system(pattern, self.resting.answer.mechanism));
-        Some(systems.filter_map(|system| self.impulse(&system)).collect())
+        let (mut found, mut are_all_tried) = (Vec::new(), true);
+        for system in systems {
+            match self.impulse(&system) {
+                Ok(impulse) => found.extend(impulse),
+                Err(NotTried) => are_all_tried = false,
+            }
+        }
+        (are_all_tried || !found.is_empty()).then_some(found)
     }
 
-    /// The impulse of a pattern, if all of its inequalities hold and what else slides goes on.
-    fn impulse(&self, system: &System) -> Option<JamImpulse> {
+    /// The impulse of a pattern, if all of its inequalities hold.
+    ///
+    /// # Errors
+    /// Its equations leave impulses open, or something else that rubs would reverse.
+    fn impulse(&self, system: &System) -> Result<Option<JamImpulse>, NotTried> {
         let resting = &self.resting;
         let Answer { mechanism, configuration, influence, .. } = *resting.answer;
-        let set = resting.equations(system).filter(|set| set.dimension() == 0)?;
+        let Some(set) = resting.equations(system) else { return Ok(None) };
+        if set.dimension() > 0 {
+            return Err(NotTried);
+        }
         let unknowns = set.particular() * resting.force;
-        let point = resting.point(system, &unknowns, &resting.slacks(system, &set))?;
+        if resting.least_slack(&unknowns, &resting.slacks(system, &set)).is_none() {
+            return Ok(None);
+        }
+        let point = resting.point(system, &unknowns);
         let frictions = resting.answer.friction(&point.state());
         let jumps = influence.unknowns(&frictions, &point.normal_force);
         let goes_on = |(row, velocity): &(SlidingRow, f64)| (velocity + row.change(&jumps)) * velocity >= 0.0;
         if !self.others.iter().all(goes_on) {
-            return None;
+            return Err(NotTried);
         }
         let force =
             |k: usize, force: f64| if resting.is_open(&system.pattern, k) { 0.0 } else { force + 0.0 };
@@ -99,7 +123,7 @@ impl Jam<'_> {
         };
         let rates = configuration.rates.iter().zip(resting.answer.equations.coordinate_jumps(&jumps));
         let coordinates = mechanism.coordinates.iter().zip(&configuration.coordinates).zip(rates);
-        Some(JamImpulse {
+        Ok(Some(JamImpulse {
             joints: resting.words(&point),
             contacts: mechanism.contacts.iter().enumerate().map(contact).collect(),
             coordinates: coordinates
@@ -111,7 +135,7 @@ impl Jam<'_> {
                 })
                 .collect(),
             energy_lost: energy_lost(mechanism, configuration, &jumps),
-        })
+        }))
     }
 }
 

@@ -38,6 +38,7 @@ use crate::report::{
 pub(super) use jam::impulses as jam_impulses;
 use nalgebra::DVector;
 use patterns::System;
+use std::cell::OnceCell;
 
 /// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
 const TOLERANCE: f64 = 1e-9;
@@ -120,8 +121,8 @@ fn greatest_force(influence: &Influence) -> f64 {
 pub(super) struct Resting<'a> {
     answer: &'a Answer<'a>,
     joints: Vec<RestingJoint>,
-    /// The mechanism without friction.
-    smooth: Mechanism,
+    /// The mechanism without friction, where it is asked for.
+    smooth: OnceCell<Mechanism>,
     /// The unit of forces (N), in a jam of impulses (N s).
     force: f64,
 }
@@ -132,9 +133,8 @@ struct Point {
     normal_force: DVector<f64>,
     held: Vec<Held>,
     signs: Vec<i8>,
+    /// The oriented determinant of its pattern; 0 where it is not known or not asked for.
     oriented: f64,
-    /// The least slack of its inequalities, in the units in which they count.
-    least: f64,
 }
 
 /// Steps of refinement of the forces of a pattern.
@@ -142,9 +142,7 @@ const REFINEMENTS: usize = 2;
 
 impl<'a> Resting<'a> {
     fn new(answer: &'a Answer<'a>, joints: Vec<RestingJoint>, force: f64) -> Self {
-        let mut smooth = answer.mechanism.clone();
-        smooth.multiply_friction_of_contacts(|_| 0.0);
-        Self { answer, joints, smooth, force }
+        Self { answer, joints, smooth: OnceCell::new(), force }
     }
 
     /// The normal forces of a state of a mechanism of which no joint is at rest, refined where contacts lift off.
@@ -171,7 +169,7 @@ impl<'a> Resting<'a> {
         }
         let factors = self.matrix(system).lu();
         for _ in 0..REFINEMENTS {
-            let all = self.answer.refined(&self.at(system, &unknowns).state());
+            let all = self.answer.refined(&self.at_above(0.0, system, &unknowns).state());
             let left = DVector::from_fn(unknowns.len(), |row, _| match row.checked_sub(states.len()) {
                 None if self.is_open(&system.pattern, row) => all[self.place(row)] / self.force,
                 None => (all[self.place(row)] - states[row].sign() * unknowns[row]) / self.force,
@@ -201,10 +199,11 @@ impl<'a> Resting<'a> {
                 .and_then(|all| Some(all && self.oriented(&system).map(|oriented| oriented > 0.0)?));
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
-                let unknowns = self.refined(&system, set.particular() * self.force);
-                if let Some(point) = self.point(&system, &unknowns, &self.slacks(&system, &set)) {
+                let unknowns = set.particular() * self.force;
+                if let Some(least) = self.least_slack(&unknowns, &self.slacks(&system, &set)) {
+                    let point = self.point(&system, &self.refined(&system, unknowns));
                     let solution = self.solution(&point, &mut tipped);
-                    solutions.extend(solution.map(|solution| (solution, point.least)));
+                    solutions.extend(solution.map(|solution| (solution, least)));
                 }
             } else {
                 continua.extend(self.continuum(&system, &set));
@@ -257,25 +256,30 @@ impl<'a> Resting<'a> {
         self.joints.iter().map(|joint| self.name(joint)).collect::<Vec<_>>().join(", ")
     }
 
-    /// A point at which all inequalities of a pattern hold.
-    fn point(
-        &self,
-        system: &System,
-        unknowns: &DVector<f64>,
-        [beginning, slacks]: &[Vec<Affine>; 2],
-    ) -> Option<Point> {
+    /// The least slack of the inequalities of a pattern that has one point, in the units in which they count; none if one is
+    /// missed.
+    fn least_slack(&self, unknowns: &DVector<f64>, [beginning, slacks]: &[Vec<Affine>; 2]) -> Option<f64> {
         let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
         let begins = beginning.iter().all(|slack| slack.constant > rounding);
         let least = slacks.iter().map(|slack| slack.constant).fold(f64::INFINITY, f64::min);
-        (begins && least >= -rounding).then(|| Point { least, ..self.at(system, unknowns) })
+        (begins && least >= -rounding).then_some(least)
+    }
+
+    /// What contacts do with these unknowns, with the oriented determinant.
+    fn point(&self, system: &System, unknowns: &DVector<f64>) -> Point {
+        Point { oriented: self.oriented(system).unwrap_or(0.0), ..self.at(system, unknowns) }
     }
 
     /// What contacts do with these unknowns. Forces that are rounding are none.
     fn at(&self, system: &System, unknowns: &DVector<f64>) -> Point {
+        self.at_above(TOLERANCE * unknowns.amax().max(self.force), system, unknowns)
+    }
+
+    /// What contacts do with these unknowns. Forces up to `nothing` are none.
+    fn at_above(&self, nothing: f64, system: &System, unknowns: &DVector<f64>) -> Point {
         let mechanism = self.answer.mechanism;
         let Pattern { states, starts } = &system.pattern;
         let contacts = states.len();
-        let nothing = TOLERANCE * unknowns.amax().max(self.force);
         let force = |k: usize| if unknowns[k].abs() <= nothing { 0.0 } else { unknowns[k] };
         let mut held = Vec::new();
         for (index, (joint, start)) in self.joints.iter().zip(starts).enumerate() {
@@ -304,8 +308,7 @@ impl<'a> Resting<'a> {
             normal_force: DVector::from_fn(contacts, |k, _| states[k].sign() * force(k)),
             signs: signs(states).into_iter().enumerate().map(sign).collect(),
             held,
-            oriented: self.oriented(system).unwrap_or(0.0),
-            least: 0.0,
+            oriented: 0.0,
             pattern: system.pattern.clone(),
         }
     }
@@ -356,7 +359,8 @@ impl<'a> Resting<'a> {
             let Some(mode) = modes.iter_mut().find(|mode| mode.name == name) else { continue };
             let starts = match (start, mechanism.slider(joint.joint)) {
                 (Some(Start::Slips(sign)), Some(slider)) => {
-                    let sign = if *sign < 0.0 { -1 } else { 1 };
+                    let (sign, sense) = if *sign < 0.0 { (-1, "backwards") } else { (1, "forwards") };
+                    mode.start = Some(format!("{}, slides {sense}", mode.mode));
                     sliding_in_words(mechanism, configuration, slider, sign)
                 }
                 (Some(Start::Sticks), Some(slider)) => sticking_in_words(slider).to_owned(),

@@ -170,7 +170,12 @@ impl Resting<'_> {
 
     /// The determinant of a pattern over that without friction; none where the latter vanishes, as rows are dependent.
     pub(super) fn oriented(&self, system: &System) -> Option<f64> {
-        let smooth = self.system(system.pattern.clone(), &self.smooth);
+        let smooth = self.smooth.get_or_init(|| {
+            let mut smooth = self.answer.mechanism.clone();
+            smooth.multiply_friction_of_contacts(|_| 0.0);
+            smooth
+        });
+        let smooth = self.system(system.pattern.clone(), smooth);
         let (matrix, without) = (self.matrix(system), self.matrix(&smooth));
         let of_smooth = without.determinant();
         if without.row_iter().any(|row| row.norm() <= TOLERANCE) {

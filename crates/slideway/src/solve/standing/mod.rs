@@ -82,6 +82,9 @@ pub(crate) fn check_standing(mechanism: &Mechanism, standing: &[ContactId]) -> R
 /// A fault that names them, if there are some.
 pub(crate) fn check_none_stands(stages: &Stages, question: &'static str) -> Result<(), Faults> {
     let mechanism = &stages.mechanism;
+    if may_lift_off(mechanism, &stages.standing) {
+        return none_stands(mechanism, &stages.standing);
+    }
     let Some(first) = stages.standing.first() else { return Ok(()) };
     let name = |contact: &ContactId| mechanism.contacts[contact.index()].name.to_string();
     let contacts = stages.standing.iter().map(name).collect();

@@ -11,8 +11,7 @@ use crate::kinetics::ConstraintRow;
 use crate::law::COUPLE_TOLERANCE;
 use crate::modes::Side;
 use crate::modes::existence::OutputBound;
-use crate::problem::NO_INFLUENCE;
-use crate::problem::{BlockNumbers, TurningHinge};
+use crate::problem::{BlockNumbers, NO_INFLUENCE, TurningHinge};
 use nalgebra::{DMatrix, DVector};
 
 /// Modes whose determinant is below this are singular within rounding.

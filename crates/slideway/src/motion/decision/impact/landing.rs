@@ -102,8 +102,9 @@ fn moved(configuration: &Configuration, part: &Part, mechanism: &Mechanism) -> C
 }
 
 fn names(mechanism: &Mechanism, touching: &[(usize, f64)]) -> Vec<String> {
-    let closing = touching.iter().filter(|(_, rate)| *rate < 0.0);
-    closing.map(|(k, _)| mechanism.contacts[*k].name.to_string()).collect()
+    let closing = touching.iter().any(|(_, rate)| *rate < 0.0);
+    let named = touching.iter().filter(|(_, rate)| *rate < 0.0 || !closing);
+    named.map(|(k, _)| mechanism.contacts[*k].name.to_string()).collect()
 }
 
 fn wedges(mechanism: &Mechanism, touching: &[(usize, f64)]) -> Faults {
@@ -180,6 +181,10 @@ fn part_with(
     let mut all: Vec<Option<Assessment>> = vec![None];
     for group in &instant.groups {
         let found = impulses.admissible(&question, &options, group)?;
+        if found.unsolved > 0 {
+            let joints = names(touching.whole, rates);
+            return Err(Fault::general(FaultKind::UnsolvedImpact { joints }).into());
+        }
         let with = |before: &Option<Assessment>| {
             let joined = found.list.iter().map(|one| match before {
                 Some(before) => Some(before.clone().with(group, one)),

@@ -255,9 +255,11 @@ fn told(
     let instead = if slider.kind == SliderKind::Pin { "corner_on_face" } else { "block_on_face" };
     let at = contacts.join(" and ");
     let what = match reason {
-        OneFaceReason::Pulls => format!("At {at} {guide} has to pull {block}."),
+        OneFaceReason::Pulls => format!("At {at}, {guide} would have to pull on {block}."),
         OneFaceReason::ChangesSide => {
-            format!("At {at} {block} presses the other face than under the weights alone.")
+            format!(
+                "At {at}, {block} presses against the other face, not the one it lies on under the weights alone."
+            )
         }
         OneFaceReason::Jams => format!("{name} jams between two faces."),
     };
