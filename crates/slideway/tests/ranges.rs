@@ -55,7 +55,7 @@ fn a_range_that_is_not_given_contains_the_jam_that_is_known() {
         ("mu", &desk, [0.0, 2.25], "mu = 1.125"),
         ("mu", &Settings::default(), [0.0, 1.0], "mu = 0.6667"),
         // 0.45 m/(2 0.2 m 0.01) times the friction of the model.
-        ("friction", &rough, [0.0, 225.0], "friction = 112.5"),
+        ("friction", &rough, [0.0, 225.0], "112.5 times this friction"),
         // L/(2 mu) = 0.4 m/0.6
         ("a", &Settings::default(), [0.06, 1.5], "a = 0.6667 m"),
     ] {
