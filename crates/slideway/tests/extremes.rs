@@ -19,6 +19,7 @@ use slideway::size::{Against, size_with};
 use slideway::solve::{SolveOptions, solve, solve_with};
 use slideway::standstill::hold_with;
 use slideway::{DriveOptions, HoldOptions, LimitsOptions, MapOptions, Report, SizeOptions, Vary};
+use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
 /// A weightless block pulled along its guide through its centre: nothing presses on the guide.
@@ -124,7 +125,8 @@ fn hanging_chain(bars: usize) -> Model {
     for bar in 0..bars {
         let (next, before) = (bar + 1, if bar == 0 { "ground".to_owned() } else { format!("b{}", bar - 1) });
         let rate = if bar % 2 == 0 { 0.1 } else { -0.1 };
-        text += &format!(
+        let _ = write!(
+            text,
             r#"
             [bodies.b{bar}]
             points = ["p{bar}", "p{next}", "c{bar}"]

@@ -327,7 +327,8 @@ mod tests {
                         let (forwards, opposite) = (at(&model), at(&backwards));
                         let [forwards, opposite] =
                             [&forwards, &opposite].map(|answer| answer.as_ref().map_err(|reason| *reason));
-                        let expected = class((colour_by, &effort::Bounds::default()), forwards, Some(opposite));
+                        let expected =
+                            class((colour_by, &effort::Bounds::default()), forwards, Some(opposite));
                         assert_eq!(found, ClassKey(expected), "{name} {colour_by:?} at {values:?}");
                     }
                 }
