@@ -35,8 +35,7 @@ const VELOCITY: f64 = 40.0;
 pub(crate) fn forces_on(mechanism: &Mechanism) -> &'static str {
     let grounded = |is: bool| sliders(mechanism).any(|(_, slider)| (slider.block == Frame::Ground) == is);
     match (grounded(true), grounded(false)) {
-        (true, true) => "the block, or on the guide of a block that is ground",
-        (true, false) => "the guide",
+        (true, _) => "the moving part",
         _ => "the block",
     }
 }

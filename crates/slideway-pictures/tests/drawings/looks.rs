@@ -325,7 +325,7 @@ fn forces_act_on_what_moves() {
     let sideways: f64 = [upper, lower].iter().chain(&friction).map(|(_, force)| force.x).sum();
     assert!((sideways + push).abs() < 0.15 * push, "{sideways} {push}");
     let texts = captions(&case);
-    assert!(texts.contains(&"normal reaction on the guide".to_owned()), "{texts:?}");
+    assert!(texts.contains(&"normal reaction on the moving part".to_owned()), "{texts:?}");
     assert!(captions(&Case::gallery("drawer")).contains(&"normal reaction on the block".to_owned()));
 }
 
