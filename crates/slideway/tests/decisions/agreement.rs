@@ -1,6 +1,6 @@
 //! Decisions agree with `solve` where all joints slide, and with `hold` where all are at rest.
 
-use crate::set_up::{State, assert_close, joints, sides};
+use crate::set_up::{State, assert_close, joints, may_lift_off, sides};
 use slideway::check;
 use slideway::configuration::Configuration;
 use slideway::gallery::{GalleryModel, MODELS};
@@ -106,11 +106,11 @@ fn assert_turning(name: &str, state: &State, report: &SolveReport) {
     }
 }
 
-/// The models of the gallery whose motion in time is computed.
+/// The models of the gallery whose motion in time is computed, but for contacts that may lift off, of which `successors` has no list.
 fn moving() -> impl Iterator<Item = &'static GalleryModel> {
     let is_ready =
         |entry: &&GalleryModel| check(&Model::parse(entry.text).unwrap()).unwrap().is_ready_for("simulate");
-    MODELS.iter().filter(is_ready)
+    MODELS.iter().filter(is_ready).filter(|entry| !may_lift_off(entry.text))
 }
 
 #[test]

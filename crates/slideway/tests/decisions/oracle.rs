@@ -2,7 +2,7 @@
 //! points; and where friction is small there is exactly one.
 
 use crate::agreement::Random;
-use crate::set_up::State;
+use crate::set_up::{State, may_lift_off};
 use nalgebra::Vector2;
 use slideway::configuration::{Configuration, Pose};
 use slideway::gallery::MODELS;
@@ -241,7 +241,7 @@ slide = "above"
 
 fn texts() -> impl Iterator<Item = (&'static str, &'static str)> {
     let gallery =
-        MODELS.iter().map(|entry| (entry.name, entry.text)).filter(|(_, text)| !text.contains("[drives."));
+        MODELS.iter().map(|entry| (entry.name, entry.text)).filter(|(_, text)| !text.contains("[drives.") && !may_lift_off(text));
     gallery.chain([("stacked", STACKED)])
 }
 

@@ -76,3 +76,8 @@ pub(crate) fn assert_close(found: f64, expected: f64, scale: f64, tolerance: f64
     let scale = scale.max(found.abs()).max(expected.abs());
     assert!((found - expected).abs() <= tolerance * scale, "{found} is not {expected}");
 }
+
+/// Whether a model has contacts that may lift off.
+pub(crate) fn may_lift_off(text: &str) -> bool {
+    ["_on_face\"", "disc_on_disc\""].iter().any(|kind| text.contains(kind))
+}

@@ -72,10 +72,15 @@ fn differences_beside([alone, beside]: [&str; 2], duration: f64) -> Vec<String> 
     all
 }
 
+/// Whether a model has contacts that may lift off, beside which friction in hinges is refused.
+pub(super) fn may_lift_off(text: &str) -> bool {
+    ["_on_face\"", "disc_on_disc\""].iter().any(|kind| text.contains(kind))
+}
+
 #[test]
 fn an_unrelated_pendulum_changes_no_motion_of_the_gallery() {
     let mut failed = String::new();
-    for model in gallery::MODELS {
+    for model in gallery::MODELS.iter().filter(|model| !may_lift_off(model.text)) {
         for difference in differences(model.text, 0.2) {
             writeln!(failed, "{}: {difference}", model.name).unwrap();
         }
