@@ -240,8 +240,10 @@ slide = "above"
 "#;
 
 fn texts() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let gallery =
-        MODELS.iter().map(|entry| (entry.name, entry.text)).filter(|(_, text)| !text.contains("[drives.") && !may_lift_off(text));
+    let gallery = MODELS
+        .iter()
+        .map(|entry| (entry.name, entry.text))
+        .filter(|(_, text)| !text.contains("[drives.") && !may_lift_off(text));
     gallery.chain([("stacked", STACKED)])
 }
 
