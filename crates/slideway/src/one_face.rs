@@ -30,11 +30,11 @@ const NO_FORCE: f64 = 1e-9;
 /// For each contact the least and the greatest normal force of one state (N).
 pub(crate) type NormalForces = Vec<[f64; 2]>;
 
-/// What an answer says of the normal forces.
+/// The normal forces that an answer knows.
 pub(crate) struct Pressed<'a> {
     /// The normal forces of each state that is possible.
     pub(crate) states: &'a [NormalForces],
-    /// Whether no state is possible.
+    /// True if no state is possible.
     pub(crate) jams: bool,
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn one_face_hints(
     model.joints.iter().enumerate().filter_map(hint).collect()
 }
 
-/// Whether a model says something that only two faces have.
+/// Returns whether a model says something that only two faces have.
 fn states_two_faces(written: &model::Slider, slider: &Slider) -> bool {
     let of_contact = |contact: &model::Contact| {
         contact.play.is_some()
@@ -185,7 +185,7 @@ fn drawn_side(mechanism: &Mechanism, slider: &Slider) -> Option<f64> {
 struct Extent {
     /// Heights of its outline's corners, its shape or its points above the line.
     heights: Vec<f64>,
-    /// Whether lines lead from each to the next, so that two on the line are an edge.
+    /// True if lines lead from each to the next, so that two on the line are an edge.
     has_edges: bool,
 }
 

@@ -58,7 +58,7 @@ pub fn shared_load<T: Real>(
     }))
 }
 
-/// Whether the faces that share a load do not yield.
+/// Returns whether the faces that share a load do not yield.
 pub(crate) fn is_rigid(shared: &SharedLoad) -> bool {
     shared.compliance.iter().all(|compliance| *compliance == 0.0)
 }

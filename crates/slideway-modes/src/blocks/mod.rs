@@ -114,7 +114,7 @@ fn searched(
     searched_knowing(problem, unique, options, progress, manner)
 }
 
-/// Whether the search may begin, or its first proof go on.
+/// Returns true while the search may begin, or its first proof go on.
 fn goes_on(progress: &mut Callback<'_>) -> bool {
     progress(&Progress { fraction: None, found: Some(0), ..Progress::of("nodes", 0, 1) }).is_continue()
 }

@@ -74,7 +74,7 @@ pub(crate) struct Placed {
     frame: Frame,
     /// Distance of the ticks of the horizontal axis from the frame (px).
     below: f64,
-    /// Whether the horizontal axis has its name.
+    /// True if the horizontal axis has its name.
     is_named: bool,
 }
 

@@ -520,7 +520,7 @@ another solution.
 model is not allowed."""
 
 OneFaceReason = Literal["pulls", "changes_side", "jams"]
-"""What needs the second face of a joint.
+"""Reasons why a joint needs its second face.
 
 - `"pulls"`: The block is drawn on one side of the face, and the face pulls it.
 - `"changes_side"`: Under the weights alone the block lies on one face, and it presses the other one.
@@ -1778,7 +1778,7 @@ class HeldEffort(Record):
     held: tuple[Range, ...]
     """The ranges of its effort (N or N m), disjoint and in ascending order."""
     words: str
-    """The same in words: "It holds with `push` from -1.254 to 7.963 N." """
+    """In words: "It holds with `push` from -1.254 to 7.963 N." """
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1918,7 +1918,7 @@ class JamImpulse(Record):
     """An impulse at a jam: velocities jump without a collision, until what wedges has stopped."""
 
     joints: tuple[JointMode, ...]
-    """What each sliding joint does afterwards."""
+    """State of each sliding joint afterwards."""
     contacts: tuple[ContactImpulse, ...]
     """The impulses of all contacts."""
     coordinates: tuple[CoordinateState, ...]
@@ -2334,11 +2334,11 @@ class OneFaceHint(Record):
     contacts: tuple[str, ...]
     """Its contacts that need the other face; all of them where it jams."""
     reason: OneFaceReason
-    """What needs it."""
+    """The reason why a second face is needed."""
     instead: str
     """The type of joint that may lift off."""
     words: str
-    """The same in words."""
+    """In words."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

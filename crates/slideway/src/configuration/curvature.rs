@@ -254,7 +254,7 @@ impl Distance {
 }
 
 impl Angle {
-    /// So many times the angle of each of two frames; ground does not turn.
+    /// Multiples of the angles of two frames; ground does not turn.
     pub(super) fn sum(parts: [(Frame, f64); 2]) -> Self {
         Self(parts.map(|(frame, factor)| match frame.body() {
             Some(body) => (3 * body.index() + 2, factor),

@@ -73,7 +73,7 @@ pub(super) struct Halt {
 }
 
 impl Halt {
-    /// Whether the number of steps is the reason, or the end of the work, or a way that is too long; else the joint equations
+    /// True if the number of steps is the reason, or the end of the work, or a way that is too long; else the joint equations
     /// are singular there within rounding.
     pub(super) fn is_effort(&self) -> bool {
         self.is_ended || self.steps >= MOST_STEPS || !is_within_reach(self.end)

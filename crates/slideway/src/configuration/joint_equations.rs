@@ -106,7 +106,7 @@ impl<'m, T: Real> Rows<'m, T> {
         }
     }
 
-    /// What does not slip on a straight face: `u . (block - guide) + R (angle of the block - angle of the guide)` is as drawn.
+    /// Row of a contact that does not slip on a straight face: `u . (block - guide) + R (angle of the block - angle of the guide)` is as drawn.
     fn sticks(&mut self, joint: JointId, slider: &Slider<T>) {
         let [block, guide] = middle_points(slider);
         let before = self.list.len();

@@ -1,4 +1,4 @@
-//! What moves with each coordinate alone.
+//! Motions with the rate of one coordinate alone.
 
 use super::factors::Factors;
 use super::joint_equations::JointEquations;

@@ -64,7 +64,7 @@ pub struct HeldEffort {
     pub drive: String,
     /// The ranges of its effort (N or N m), disjoint and in ascending order.
     pub held: Vec<Range>,
-    /// The same in words: "It holds with `push` from -1.254 to 7.963 N."
+    /// In words: "It holds with `push` from -1.254 to 7.963 N."
     pub words: String,
 }
 

@@ -22,7 +22,7 @@ pub(super) struct State {
     pub(super) coordinates: Vec<CoordinateState>,
     /// The efforts in its direction of motion.
     pub(super) direction: DriveDirection,
-    /// Whether it is at rest on contacts that may lift off.
+    /// True if it is at rest on contacts that may lift off.
     pub(super) is_at_rest: bool,
 }
 

@@ -36,7 +36,7 @@ pub enum ClassMeaning {
     },
     /// How its states start, where contacts that may lift off are at rest.
     Starts {
-        /// What the joints at rest do in each state, in words.
+        /// Words for the joints at rest in each state.
         starts: Vec<String>,
     },
     /// There is one solution, and there are none or several from a factor of friction on that lies in this
@@ -80,7 +80,7 @@ pub enum ClassMeaning {
         #[serde(skip_serializing_if = "std::ops::Not::not")]
         may_slip: bool,
     },
-    /// Whether there is a solution is not decided: rounding hides it.
+    /// Not decided: rounding hides whether there is a solution.
     Undecided,
     /// Infinitely many solutions.
     Continuum,

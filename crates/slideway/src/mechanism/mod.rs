@@ -152,7 +152,7 @@ pub struct Slider<T = f64> {
     pub round: Option<Round<T>>,
     /// The contacts at corners, or at a disc, that are apart from their face in the state.
     pub apart: Vec<Contact<T>>,
-    /// Whether it does not slip in the state, which leaves a motion less to the coordinates; what it does then is decided by the
+    /// True if it does not slip in the state, which leaves a motion less to the coordinates; what it does then is decided by the
     /// forces, as for any contact at rest.
     pub sticks: bool,
     /// Whether the block surrounds the guide, so that the opposite faces press.

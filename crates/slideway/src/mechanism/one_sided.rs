@@ -25,7 +25,7 @@ impl<T: Real> Slider<T> {
 }
 
 impl<T> Mechanism<T> {
-    /// Whether some contacts may lift off.
+    /// Returns whether some contacts may lift off.
     pub(crate) fn has_one_sided(&self) -> bool {
         self.contacts.iter().any(|contact| contact.opens)
     }

@@ -260,7 +260,7 @@ pub struct Slider {
     pub round: Option<Round<FormulaId>>,
     /// Which of the contacts that may lift off touch in the state to be solved.
     pub touches: Touches,
-    /// Whether it does not slip in the state to be solved.
+    /// True if it does not slip in the state to be solved.
     pub sticks: bool,
     /// Whether the block surrounds the guide.
     pub around: bool,

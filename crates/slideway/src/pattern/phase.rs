@@ -33,7 +33,7 @@ impl Phase {
         contacts.map(sign).chain(self.hinges.iter().map(|hinge| hinge.state.symbol())).collect()
     }
 
-    /// Whether a contact that may lift off is open.
+    /// Returns whether a contact that may lift off is open.
     pub(crate) fn is_open(&self, mechanism: &Mechanism, contact: usize) -> bool {
         mechanism.contacts[contact].opens && self.contacts[contact] == ContactPhase::PreloadGap
     }

@@ -43,7 +43,7 @@ impl SolveReport {
         }
     }
 
-    /// What the joints do that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint
+    /// Words for the joints that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint
     /// is at rest. Without numbers, so that the same start has the same words in another state.
     pub(crate) fn starts(&self) -> Option<Vec<String>> {
         self.starts_in(|joint| joint.start.as_ref().unwrap_or(&joint.mode))
@@ -81,7 +81,7 @@ impl SolveReport {
         })
     }
 
-    /// What a mechanism that jams does instead: "An impulse without collision stops it: afterwards tip is closed, sticks."
+    /// Words for the impulse that acts in a jam: "An impulse without collision stops it: afterwards tip is closed, sticks."
     fn impulse_in_words(&self) -> Option<String> {
         let after = |impulse: &JamImpulse| {
             let joints = impulse.joints.iter().map(|joint| format!("{}: {}", joint.name, joint.mode));

@@ -66,7 +66,7 @@ impl ModeEndCause {
 }
 
 impl ModeEndCause {
-    /// What contacts do at an end by a change of side: "lifts off", or of several "lift off".
+    /// Words for contacts at an end by a change of side: "lifts off", or of several "lift off".
     pub fn of_contacts(self, several: bool) -> &'static str {
         match (self, several) {
             (Self::LiftsOff, true) => "lift off",

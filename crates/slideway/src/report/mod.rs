@@ -198,7 +198,7 @@ pub struct SolveReport {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct JamImpulse {
-    /// What each sliding joint does afterwards.
+    /// State of each sliding joint afterwards.
     pub joints: Vec<JointMode>,
     /// The impulses of all contacts.
     pub contacts: Vec<ContactImpulse>,

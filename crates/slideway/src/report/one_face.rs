@@ -10,15 +10,15 @@ pub struct OneFaceHint {
     pub joint: String,
     /// Its contacts that need the other face; all of them where it jams.
     pub contacts: Vec<String>,
-    /// What needs it.
+    /// The reason why a second face is needed.
     pub reason: OneFaceReason,
     /// The type of joint that may lift off.
     pub instead: &'static str,
-    /// The same in words.
+    /// In words.
     pub words: String,
 }
 
-/// What needs the second face of a joint.
+/// Reasons why a joint needs its second face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]

@@ -268,7 +268,7 @@ impl<'a> Answer<'a> {
         self.equations.refined(&unknowns, faces, gaps)
     }
 
-    /// Whether contacts lift off, and what others carry does not depend on how they share it.
+    /// True if contacts lift off, and what others carry does not depend on how they share it.
     pub(super) fn can_be_refined(&self, pattern: &[ContactState]) -> bool {
         self.mechanism.opening(pattern).next().is_some() && self.mechanism.excess.is_empty()
     }

@@ -154,7 +154,7 @@ impl Stages {
         none_stands(&self.mechanism, &self.standing)
     }
 
-    /// Whether it is at rest on contacts that may lift off.
+    /// Returns whether it is at rest on contacts that may lift off.
     pub(crate) fn is_at_rest(&self) -> bool {
         let rests = self.configuration.rates.iter().all(|rate| *rate == 0.0);
         rests && may_lift_off(&self.mechanism, &self.standing)

@@ -14,7 +14,7 @@ pub(crate) struct StatesWithinTolerances {
     pub(crate) states: Vec<StateWithinTolerances>,
     /// Whether there are infinitely many besides.
     pub(crate) continuum: bool,
-    /// Whether rounding may hide a state: a pattern is too near to a boundary for elimination, or there are too many contacts
+    /// True if rounding may hide a state: a pattern is too near to a boundary for elimination, or there are too many contacts
     /// for it, so that no distance from boundaries is known.
     pub(crate) in_doubt: bool,
 }

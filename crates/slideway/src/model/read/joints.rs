@@ -165,7 +165,7 @@ impl Reader<'_> {
         contacts.extract_if(.., leaves).collect()
     }
 
-    /// Whether a joint does not slip, which only what touches can.
+    /// Reads whether a joint does not slip, which only what touches can.
     pub(super) fn sticks(
         &mut self,
         written: Option<bool>,

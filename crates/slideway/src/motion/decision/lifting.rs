@@ -55,7 +55,7 @@ impl<'m> Touching<'m> {
         Self::new(whole, &phase.open(whole), &[])
     }
 
-    /// What a phase of the whole mechanism says of it.
+    /// Returns its part of a phase of the whole mechanism.
     pub(super) fn part_of(&self, phase: &Phase) -> Phase {
         Phase { contacts: self.kept.iter().map(|&k| phase.contacts[k]).collect(), ..phase.clone() }
     }
@@ -127,7 +127,7 @@ struct Candidate {
     continuation: Continuation,
     /// Joints that stick on, and joints that stick.
     sticking: [usize; 2],
-    /// Whether only rounding keeps what has vanished from going on to fall.
+    /// True if only rounding keeps what has vanished from going on to fall.
     is_over: bool,
     is_present: bool,
     open: usize,
@@ -189,7 +189,7 @@ pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> 
 /// The contacts that are apart at an instant, and the sets of those that touch which may be open, too.
 ///
 /// # Errors
-/// So many touch that not all sets are tried; no free bodies.
+/// More contacts touch than all sets are tried of; no free bodies.
 fn sets_of_open(event: &EventInstant<'_>) -> Result<(Vec<usize>, Vec<Vec<usize>>), Faults> {
     let EventInstant { mechanism, configuration, previous, .. } = *event;
     let speed = |v: &Velocity| v.linear.amax().max(v.angular.abs() * mechanism.size);

@@ -11,7 +11,7 @@ use crate::motion::moving::cause::Cause;
 const ON_END: f64 = 1e-9;
 
 impl Run<'_, '_> {
-    /// Whether a contact reaches the line of its face beyond its ends.
+    /// Returns whether a contact reaches the line of its face beyond its ends.
     pub(super) fn is_beside(&self, contact: ContactId) -> bool {
         let equations = &self.smooth.equations;
         let slider = equations.mechanism.slider(equations.mechanism.contacts[contact.index()].joint);

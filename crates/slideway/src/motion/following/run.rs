@@ -433,7 +433,7 @@ impl<'a, 'm> Run<'a, 'm> {
         self.phase = phase;
     }
 
-    /// Whether the last events came within a very short time; bouncing at a stop and rocking come to rest by themselves.
+    /// Returns whether the last events came within a very short time; bouncing at a stop and rocking come to rest by themselves.
     fn accumulates(&self) -> bool {
         let events = &self.history.events;
         let Some(first) = events.len().checked_sub(CROWD) else { return false };

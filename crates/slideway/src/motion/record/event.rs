@@ -309,7 +309,7 @@ impl Words<'_> {
         })
     }
 
-    /// Whether no contact of a joint touches.
+    /// Returns whether no contact of a joint touches.
     fn is_apart(&self, slider: &Slider, phase: &Phase) -> bool {
         slider.contacts.iter().all(|contact| phase.is_open(self.mechanism, contact.index()))
     }

@@ -265,17 +265,17 @@ impl<'a> Resting<'a> {
         (begins && least >= -rounding).then_some(least)
     }
 
-    /// What contacts do with these unknowns, with the oriented determinant.
+    /// The state of the contacts with these unknowns, with the oriented determinant.
     fn point(&self, system: &System, unknowns: &DVector<f64>) -> Point {
         Point { oriented: self.oriented(system).unwrap_or(0.0), ..self.at(system, unknowns) }
     }
 
-    /// What contacts do with these unknowns. Forces that are rounding are none.
+    /// The state of the contacts with these unknowns. Forces that are rounding are none.
     fn at(&self, system: &System, unknowns: &DVector<f64>) -> Point {
         self.at_above(TOLERANCE * unknowns.amax().max(self.force), system, unknowns)
     }
 
-    /// What contacts do with these unknowns. Forces up to `nothing` are none.
+    /// The state of the contacts with these unknowns. Forces up to `nothing` are none.
     fn at_above(&self, nothing: f64, system: &System, unknowns: &DVector<f64>) -> Point {
         let mechanism = self.answer.mechanism;
         let Pattern { states, starts } = &system.pattern;
@@ -320,7 +320,7 @@ impl<'a> Resting<'a> {
         Some(kept)
     }
 
-    /// Whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick:
+    /// Judges whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick:
     /// not where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and
     /// without any that stick the state is that of contacts that slide.
     fn attainability(&self, point: &Point) -> Attainability {

@@ -186,7 +186,7 @@ impl Resting<'_> {
         (of_smooth.abs() > TOLERANCE * size).then(|| matrix.determinant() / of_smooth * factor)
     }
 
-    /// Whether the signs of the oriented determinants tell if every load has exactly one state, which it has where those of all
+    /// Returns whether the signs of the oriented determinants tell if every load has exactly one state, which it has where those of all
     /// patterns are positive (Kuhn and Loewen 1987): nothing slides, and static friction is kinetic friction.
     pub(super) fn may_be_unique(&self) -> bool {
         let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;

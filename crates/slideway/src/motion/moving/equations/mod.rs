@@ -307,7 +307,7 @@ impl<'m> Equations<'m> {
         if is_taken { 0.0 } else { self.unknowns[normal] }
     }
 
-    /// Whether a contact that may lift off is open.
+    /// Returns whether a contact that may lift off is open.
     pub(in crate::motion) fn is_open(&self, k: usize) -> bool {
         matches!(self.rubbing[k], Rubbing::Open)
     }

@@ -87,7 +87,7 @@ impl Equations<'_> {
         }
     }
 
-    /// Whether a reaction is that of a contact that is open.
+    /// Returns whether a reaction is that of a contact that is open.
     pub(super) fn is_without(&self, reaction: Reaction) -> bool {
         matches!(reaction, Reaction::Normal(contact) if self.is_open(contact.index()))
     }
