@@ -163,7 +163,7 @@ fn what_is_proven_is_told_apart_from_what_was_sampled() {
     // What is told of the part that is left out is true.
     assert_eq!(moves.left_out(), moves.to - stretch[1]);
     assert!(
-        proven.guarantee.contains("are proven, except within 6.7e-5 of ends of modes"),
+        proven.guarantee.contains("are proven, except within 6.7e-5 of the limits"),
         "{}",
         proven.guarantee
     );
