@@ -2,7 +2,7 @@
 
 use super::Painter;
 use super::hidden::Bar;
-use super::looks::{self, Look, lean, sliders};
+use super::looks::{self, Look, lean};
 use super::outline::{Local, capsule, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
 use super::slide::{BAR, SUPPORT, Slide};
@@ -91,7 +91,7 @@ impl Painter<'_> {
         }
         self.sleeves(body);
         let mechanism = self.mechanism;
-        for (joint, slider) in sliders(mechanism).filter(|(_, slider)| slider.block == frame) {
+        for (joint, slider) in mechanism.sliders().filter(|(_, slider)| slider.block == frame) {
             if let Some(belt) = self.slide(joint).filter(|slide| slide.look == Look::Rollers) {
                 self.marks(&belt, slider);
             }

@@ -2,7 +2,7 @@
 //! is pressed.
 
 use super::Painter;
-use super::looks::{Look, sliders};
+use super::looks::Look;
 use super::outline::{Local, upper_side};
 use super::scene::{Class, Point};
 use super::slide::{Slide, Station, WALL};
@@ -181,7 +181,7 @@ impl Painter<'_> {
     pub(super) fn supports(&mut self) {
         let mechanism = self.mechanism;
         let has_supports = |slider: &Slider| mechanism.places_of(slider).count() > 2;
-        for (joint, slider) in sliders(mechanism).filter(|(_, slider)| has_supports(slider)) {
+        for (joint, slider) in mechanism.sliders().filter(|(_, slider)| has_supports(slider)) {
             let Some(slide) = self.slide(joint).filter(|slide| slide.look != Look::Rollers) else { continue };
             let faced = if let Look::Face(side) = slide.look { side } else { 0.0 };
             for contact in mechanism.places_of(slider) {

@@ -1,7 +1,7 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
 use super::labels::{obstacles, reserve};
-use super::looks::{Look, sliders};
+use super::looks::Look;
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::slide::Slide;
@@ -33,7 +33,7 @@ const VELOCITY: f64 = 40.0;
 
 /// On what the forces of contacts are drawn to act.
 pub(crate) fn forces_on(mechanism: &Mechanism) -> &'static str {
-    let grounded = |is: bool| sliders(mechanism).any(|(_, slider)| (slider.block == Frame::Ground) == is);
+    let grounded = |is: bool| mechanism.sliders().any(|(_, slider)| (slider.block == Frame::Ground) == is);
     match (grounded(true), grounded(false)) {
         (true, _) => "the moving part",
         _ => "the block",
@@ -104,7 +104,7 @@ impl Painter<'_> {
     /// The gap of each corner or disc that is apart from its face, from the one to the other.
     pub(super) fn gaps(&mut self) {
         let mechanism = self.mechanism;
-        for (joint, slider) in sliders(mechanism) {
+        for (joint, slider) in mechanism.sliders() {
             let Some(slide) = self.slide(joint) else { continue };
             let rim = if slide.is_disc { 0.5 * slide.height } else { 0.0 };
             for ([gap, _], contact) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {

@@ -52,14 +52,6 @@ impl Look {
     }
 }
 
-/// The sliding joints of a mechanism, with their numbers.
-pub(super) fn sliders(mechanism: &Mechanism) -> impl Iterator<Item = (JointId, &Slider)> {
-    mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
-        JointKind::Slider(slider) => Some((JointId(index), slider)),
-        JointKind::Hinge(_) => None,
-    })
-}
-
 /// The corners of a body as it is drawn (m, in the drawing of the model): of its outline, its rectangle, or
 /// the wedge that it is. None for discs, bars and bodies without shape.
 pub(super) fn corners(mechanism: &Mechanism, id: BodyId) -> Option<Vec<Vector2<f64>>> {
@@ -83,7 +75,7 @@ pub(super) fn corners(mechanism: &Mechanism, id: BodyId) -> Option<Vec<Vector2<f
 /// The look of every joint; a contact that pulls at what would be a face has walls on both sides.
 pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> {
     let mut looks = vec![Look::Walls; mechanism.joints.len()];
-    for (id, slider) in sliders(mechanism) {
+    for (id, slider) in mechanism.sliders() {
         let look = of_geometry(mechanism, slider);
         let pulls =
             |side: f64| slider.contacts.iter().any(|contact| side * states.side(contact.index()) < 0.0);
@@ -96,10 +88,10 @@ pub(super) fn looks(mechanism: &Mechanism, states: &ContactStates) -> Vec<Look> 
             look => look,
         };
     }
-    for (id, slider) in sliders(mechanism) {
-        let before = sliders(mechanism).take_while(|(other, _)| *other != id);
+    for (id, slider) in mechanism.sliders() {
+        let before = mechanism.sliders().take_while(|(other, _)| *other != id);
         let is_first = !before.into_iter().any(|(_, other)| on_one_rail(mechanism, slider, other));
-        let mut others = sliders(mechanism).filter(|(other, _)| *other != id);
+        let mut others = mechanism.sliders().filter(|(other, _)| *other != id);
         if others.any(|(_, other)| on_one_rail(mechanism, slider, other)) {
             looks[id.index()] = Look::Shoe { is_first };
         }
@@ -145,7 +137,7 @@ pub(super) fn is_belt(mechanism: &Mechanism, body: BodyId) -> bool {
     properties.mass == 0.0
         && properties.shape.is_none()
         && properties.outline.is_empty()
-        && sliders(mechanism).any(|(_, slider)| slider.block == frame)
+        && mechanism.sliders().any(|(_, slider)| slider.block == frame)
         && mechanism.joints.iter().all(|joint| fits(&joint.kind))
 }
 
@@ -193,7 +185,7 @@ fn base_and_flank(mechanism: &Mechanism, body: BodyId) -> Option<(&Slider, &Slid
     if !mechanism.bodies[body.index()].outline.is_empty() || mechanism.bodies[body.index()].shape.is_some() {
         return None;
     }
-    let all = || sliders(mechanism).map(|(_, slider)| slider);
+    let all = || mechanism.sliders().map(|(_, slider)| slider);
     let mut bases = all().filter(|slider| slider.block == frame);
     let mut flanks = all().filter(|slider| slider.guide == frame);
     let (Some(base), None, Some(flank), None) = (bases.next(), bases.next(), flanks.next(), flanks.next())
@@ -240,7 +232,7 @@ fn on_one_rail(mechanism: &Mechanism, one: &Slider, other: &Slider) -> bool {
 /// All shoes on the rail of a joint, itself included.
 pub(super) fn on_rail_of(mechanism: &Mechanism, joint: JointId) -> Vec<JointId> {
     let Some(slider) = mechanism.slider(joint) else { return Vec::new() };
-    let all = sliders(mechanism).filter(|(_, other)| on_one_rail(mechanism, slider, other));
+    let all = mechanism.sliders().filter(|(_, other)| on_one_rail(mechanism, slider, other));
     all.map(|(id, _)| id).collect()
 }
 
@@ -248,7 +240,7 @@ pub(super) fn on_rail_of(mechanism: &Mechanism, joint: JointId) -> Vec<JointId> 
 /// of inertia leaves that open.
 pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
     let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
-    let mut all = sliders(mechanism).map(|(_, slider)| slider);
+    let mut all = mechanism.sliders().map(|(_, slider)| slider);
     let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
     let angle = tangent.y.atan2(tangent.x);
     angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()

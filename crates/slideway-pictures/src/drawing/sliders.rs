@@ -1,6 +1,6 @@
 //! Sliding joints: walls, slots, rods, blocks and pins.
 
-use super::looks::{Look, corners, on_rail_of, sliders};
+use super::looks::{Look, corners, on_rail_of};
 use super::outline::{Local, capsule, edge, reach_along, turned, upper_side};
 use super::scene::{Class, Point};
 use super::slide::{PIN, RoundFace, SUPPORT, Slide, Station, WALL};
@@ -387,7 +387,7 @@ impl Painter<'_> {
     /// Walls and rods that belong to ground; walls behind a plate are dashed where it hides them.
     pub(super) fn ground_of_slides(&mut self) {
         let mechanism = self.mechanism;
-        for (joint, slider) in sliders(mechanism) {
+        for (joint, slider) in mechanism.sliders() {
             let Some(slide) = self.slide(joint) else { continue };
             if self.is_behind_plate(&slide) {
                 for side in [-1.0, 1.0] {

@@ -11,7 +11,7 @@ use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
-use crate::mechanism::{Coordinate, JointKind, Mechanism, Slider};
+use crate::mechanism::{Coordinate, Mechanism, Slider};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::branches::Branch;
@@ -99,10 +99,8 @@ impl Naming {
     }
 
     fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
-        self.mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
-            JointKind::Slider(slider) => Some((JointId(index), &*joint.name, slider)),
-            JointKind::Hinge(_) => None,
-        })
+        let name = |joint: JointId| &*self.mechanism.joints[joint.index()].name;
+        self.mechanism.sliders().map(move |(joint, slider)| (joint, name(joint), slider))
     }
 
     fn contacts(&self, contacts: &[usize]) -> Vec<String> {

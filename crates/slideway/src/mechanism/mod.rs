@@ -719,6 +719,11 @@ impl<T: Real> Mechanism<T> {
         }
     }
 
+    /// Returns the sliding joints with their numbers, in their order.
+    pub fn sliders(&self) -> impl Iterator<Item = (JointId, &Slider<T>)> {
+        (0..self.joints.len()).map(JointId).filter_map(|joint| Some((joint, self.slider(joint)?)))
+    }
+
     /// The hinged points of a joint, if it is a hinge.
     pub(crate) fn hinge(&self, joint: JointId) -> Option<&[Attachment<T>; 2]> {
         match &self.joints[joint.index()].kind {

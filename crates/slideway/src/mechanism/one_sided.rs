@@ -24,7 +24,7 @@ impl<T: Real> Slider<T> {
     }
 }
 
-impl<T> Mechanism<T> {
+impl<T: Real> Mechanism<T> {
     /// Returns whether some contacts may lift off.
     pub(crate) fn has_one_sided(&self) -> bool {
         self.contacts.iter().any(|contact| contact.opens)
@@ -37,10 +37,7 @@ impl<T> Mechanism<T> {
 
     /// The joints that do not slip in the state.
     pub(crate) fn sticking(&self) -> impl Iterator<Item = (JointId, &Slider<T>)> {
-        self.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
-            JointKind::Slider(slider) if slider.sticks => Some((JointId(index), slider)),
-            _ => None,
-        })
+        self.sliders().filter(|(_, slider)| slider.sticks)
     }
 
     /// The contacts that may lift off.

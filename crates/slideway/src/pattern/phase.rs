@@ -159,6 +159,5 @@ impl ContactPhase {
 
 /// The sliding joints of a mechanism, in their order.
 pub(crate) fn sliding_joints(mechanism: &Mechanism) -> Vec<JointId> {
-    let joints = (0..mechanism.joints.len()).map(JointId);
-    joints.filter(|joint| mechanism.slider(*joint).is_some()).collect()
+    mechanism.sliders().map(|(joint, _)| joint).collect()
 }

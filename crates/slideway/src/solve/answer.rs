@@ -367,14 +367,7 @@ impl<'a> Answer<'a> {
     }
 
     pub(super) fn guided_sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
-        self.sliders().filter(|(_, slider)| slider.kind == SliderKind::Guided)
-    }
-
-    fn sliders(&self) -> impl Iterator<Item = (JointId, &'a Slider)> {
-        self.mechanism.joints.iter().enumerate().filter_map(|(index, joint)| match &joint.kind {
-            JointKind::Slider(slider) => Some((JointId(index), slider)),
-            JointKind::Hinge(_) => None,
-        })
+        self.mechanism.sliders().filter(|(_, slider)| slider.kind == SliderKind::Guided)
     }
 
     fn couple(&self, joint: JointId, unknowns: &DVector<f64>) -> Option<f64> {
@@ -667,12 +660,12 @@ pub(super) fn joint_modes(
     configuration: &Configuration,
     signs: &[i8],
 ) -> Vec<report::JointMode> {
-    let one = |joint: &crate::mechanism::Joint| {
-        let JointKind::Slider(slider) = &joint.kind else { return None };
+    let one = |(joint, slider): (JointId, &Slider)| {
         let tangent = configuration.slide(mechanism, slider).tangent;
         let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
         let mode = joint_mode_in_words(mechanism, slider, tangent, &signs);
-        Some(report::JointMode { name: joint.name.to_string(), mode, start: None })
+        let name = mechanism.joints[joint.index()].name.to_string();
+        report::JointMode { name, mode, start: None }
     };
-    mechanism.joints.iter().filter_map(one).collect()
+    mechanism.sliders().map(one).collect()
 }

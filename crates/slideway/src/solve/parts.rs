@@ -5,11 +5,11 @@ use super::faces::{FreeFace, with_either_side};
 use super::mode_problem::{ProblemData, overflow};
 use super::tolerant::{StatesWithinTolerances, screened};
 use crate::fault::Faults;
-use crate::ids::{ContactId, JointId};
+use crate::ids::ContactId;
 use crate::influence::Influence;
 use crate::kinetics::{Accuracy, ConstraintRow, Reaction};
 use crate::law::{positive_share, tips};
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts};
@@ -255,9 +255,8 @@ fn free_face<'p>(all: impl Iterator<Item = &'p Parts> + Clone, k: usize) -> Opti
 /// The bound of each guided slider's couple, and its row among the unknowns.
 pub(super) fn couples(mechanism: &Mechanism, influence: &Influence) -> Vec<(OutputBound, usize)> {
     let mut couples = Vec::new();
-    for (index, joint) in mechanism.joints.iter().enumerate() {
-        let JointKind::Slider(slider) = &joint.kind else { continue };
-        let row = influence.layout().reaction(Reaction::Couple(JointId(index)));
+    for (joint, slider) in mechanism.sliders() {
+        let row = influence.layout().reaction(Reaction::Couple(joint));
         if let (SliderKind::Guided, Some(row), Some(contact)) = (slider.kind, row, slider.contacts.first()) {
             let bound = OutputBound {
                 output: couples.len(),

@@ -6,7 +6,7 @@ use crate::configuration::{Configuration, free_motions, null_space};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
-use crate::mechanism::{Attachment, Effort, FrictionCircle, JointKind, Mechanism, Quantity};
+use crate::mechanism::{Attachment, Effort, FrictionCircle, Mechanism, Quantity, Slider};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
@@ -347,18 +347,16 @@ fn unknown(mechanism: &Mechanism, name: &str) -> Faults {
 }
 
 fn sliders(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Vec<SlidingJoint> {
-    let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
-        let JointKind::Slider(slider) = &joint.kind else { return None };
-        let joint = JointId(index);
+    let one = |(joint, slider): (JointId, &Slider)| {
         let couple = assembled.layout.reaction(Reaction::Couple(joint));
         let couple = couple.filter(|_| slider.kind == SliderKind::Guided);
-        Some(SlidingJoint {
+        SlidingJoint {
             joint,
             contacts: slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect(),
             couple: couple.map(|unknown| GuidedCouple { unknown, half_length: slider.greatest_couple(1.0) }),
-        })
+        }
     };
-    mechanism.joints.iter().enumerate().filter_map(one).collect()
+    mechanism.sliders().map(one).collect()
 }
 
 /// Greatest force of the state, size of the mechanism, and the force divided by the greatest mass.

@@ -114,16 +114,14 @@ pub(super) fn sliding_joints(
     configuration: &Configuration,
     equations: &KineticEquations,
 ) -> Vec<SlidingJoint> {
-    let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
-        let JointKind::Slider(slider) = &joint.kind else { return None };
-        let id = JointId(index);
+    let one = |(id, slider): (JointId, &Slider)| {
         let contacts: Vec<usize> =
             slider.contacts.iter().map(|contact: &ContactId| contact.index()).collect();
         let place = equations.layout.reaction(Reaction::Couple(id));
         let first = contacts.first().map(|&k| equations.contacts[k].sliding_velocity);
         let has_friction = contacts.iter().any(|&k| mechanism.contacts[k].may_hold());
         let stop = touched_stop(mechanism, configuration, slider);
-        Some(SlidingJoint {
+        SlidingJoint {
             id,
             contacts,
             couple: place.map(|unknown| GuidedCouple { unknown, half_length: slider.greatest_couple(1.0) }),
@@ -133,9 +131,9 @@ pub(super) fn sliding_joints(
             has_friction: has_friction || stop != 0.0,
             stop,
             units: Units { force: 1.0, length: mechanism.size, acceleration: 1.0 },
-        })
+        }
     };
-    mechanism.joints.iter().enumerate().filter_map(one).collect()
+    mechanism.sliders().map(one).collect()
 }
 
 /// Of each sliding joint the contacts that are apart from their face in the mechanism, but whose gaps are zero, by their numbers

@@ -21,7 +21,7 @@ use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::Mechanism;
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::Verdict;
 use nalgebra::DVector;
@@ -74,11 +74,7 @@ impl<'m> Touching<'m> {
 
     /// Which of the sliding joints do not touch at all.
     fn is_apart(&self) -> Vec<bool> {
-        let sliders = self.mechanism.joints.iter().filter_map(|joint| match &joint.kind {
-            JointKind::Slider(slider) => Some(slider.contacts.is_empty()),
-            JointKind::Hinge(_) => None,
-        });
-        sliders.collect()
+        self.mechanism.sliders().map(|(_, slider)| slider.contacts.is_empty()).collect()
     }
 
     /// A phase of it as one of the whole mechanism.

@@ -14,9 +14,9 @@
 use super::patterns::{System, lighter_mass};
 use super::{Resting, RestingJoint, Start, joints_of};
 use crate::configuration::{Configuration, unit};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::kinetics::{KineticEquations, SlidingRow};
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{Mechanism, Slider};
 use crate::report::{ContactImpulse, CoordinateState, JamImpulse};
 use crate::solve::answer::Answer;
 use crate::solve::stages::Stages;
@@ -55,15 +55,14 @@ pub(in crate::solve) fn impulses(stages: &Stages, equations: &KineticEquations) 
 /// The velocities of the other sliding joints with friction, each with its row and its sign.
 fn others(stages: &Stages) -> Vec<(SlidingRow, f64)> {
     let Stages { mechanism, configuration, velocity_signs, .. } = stages;
-    let of_joint = |joint: &crate::mechanism::Joint| {
-        let JointKind::Slider(slider) = &joint.kind else { return None };
+    let of_joint = |(_, slider): (JointId, &Slider)| {
         let first = *slider.contacts.first()?;
         let sign = velocity_signs[first.index()];
         let velocity = configuration.contact(mechanism, first).sliding_velocity;
         let rubs = slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].may_hold());
         (sign != 0.0 && rubs).then(|| (SlidingRow::new(mechanism, configuration, slider), velocity))
     };
-    mechanism.joints.iter().filter_map(of_joint).collect()
+    mechanism.sliders().filter_map(of_joint).collect()
 }
 
 /// The impulse of a pattern is not known.

@@ -29,7 +29,7 @@ use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, SlidingRow};
-use crate::mechanism::{Contact, JointKind, Mechanism};
+use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::modes::{Certificate, ContactState};
 use crate::pattern::{Affine, AffineSet, sliding_in_words, sticking_in_words};
 use crate::report::{
@@ -81,18 +81,17 @@ fn joints_of(
     contacts: &[ContactId],
     before: impl Fn(&SlidingRow, ContactId) -> f64,
 ) -> Vec<RestingJoint> {
-    let joint = |(index, joint): (usize, &crate::mechanism::Joint)| {
-        let JointKind::Slider(slider) = &joint.kind else { return None };
+    let of_joint = |(joint, slider): (JointId, &Slider)| {
         let first = *slider.contacts.iter().find(|contact| contacts.contains(contact))?;
         let row = SlidingRow::new(mechanism, configuration, slider);
         Some(RestingJoint {
-            joint: JointId(index),
+            joint,
             before: before(&row, first),
             row,
             contacts: slider.contacts.iter().map(|contact| contact.index()).collect(),
         })
     };
-    mechanism.joints.iter().enumerate().filter_map(joint).collect()
+    mechanism.sliders().filter_map(of_joint).collect()
 }
 
 /// Returns whether contacts that may lift off are among those that do not slide.
