@@ -120,8 +120,8 @@ pub use enumeration::{EnumerationError, enumerate};
 /// The linear algebra whose vectors and matrices are in the interface.
 pub use nalgebra;
 pub use problem::{
-    BySide, ContactState, InfluenceCoefficients, ModeProblem, ModeProblemError, OpenContacts, ProblemPart,
-    SetPart, SharedLoad, Side, SolutionSet,
+    BlockNumbers, BySide, ContactState, InfluenceCoefficients, ModeProblem, ModeProblemError, OpenContacts,
+    ProblemPart, SetPart, SharedLoad, Side, SolutionSet,
 };
 pub use search::{
     Alternative, Arguments, BigCount, CombinedState, Completeness, Exclusion, ExclusionArgument, Factor,

@@ -307,6 +307,7 @@ fn faulty_influence_coefficients_are_named() -> Result<(), Box<dyn Error>> {
         frictionless: dvector![1.0, 2.0],
         shared: None,
         one_sided: vec![],
+        turning: vec![],
     };
     let problem = ModeProblem::from_influence(&good)?;
     assert_close(&problem.columns(Side::Negative).column(1).into_owned(), &dvector![0.04, -0.92], 1e-15);

@@ -160,6 +160,7 @@ fn example(mu_1: f64, preload: f64) -> ModeProblem {
         frictionless: dvector![0.5, 0.25, -0.25],
         shared: None,
         one_sided: vec![],
+        turning: vec![],
     })
     .expect("finite numbers")
 }

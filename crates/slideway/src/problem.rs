@@ -1,19 +1,12 @@
-//! The problem of a mechanism in numbers, from its influence coefficients: the same code for rounded ones and
-//! for bounds.
-//!
-//! [`ProblemCoefficients`] in; out come those of the contacts, which eq. (6) needs, or the numbers of the
-//! block mode problem `x = b + d^sigma + H^sigma w`, of contacts and of hinges that turn with friction
-//! (theory of hinges, section 1).
+//! Influence coefficients of a mechanism, from which [`InfluenceCoefficients`](crate::modes::InfluenceCoefficients) makes the
+//! numbers of its problem: the same code for rounded ones and for bounds.
 
 use crate::ids::JointId;
-use crate::interval::{Interval, Real};
+use crate::interval::Real;
 use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::SliderKind;
-use crate::modes::blocks::BlockProblem;
-use crate::modes::certificate::IntervalMatrix;
-use crate::modes::{BySide, InfluenceCoefficients, ModeProblemError};
+use crate::modes::BySide;
 use nalgebra::{DMatrix, DVector};
-use std::ops::Range;
 
 /// Versions of an influence column that differ by less than this multiple of it are the same.
 pub(crate) const SAME_COLUMN: f64 = 1e-12;
@@ -32,102 +25,9 @@ pub(crate) struct TurningHinge {
 }
 
 impl TurningHinge {
-    /// The couple on its first body by its force: -r sgn(omega).
+    /// The couple on its first body by a unit of its force: `-r sgn(omega)` (theory of hinges, section 1).
     pub(crate) fn leverage<T: Real>(&self, circle: &FrictionCircle<T>) -> T {
         -circle.radius * T::exactly(self.sense)
-    }
-}
-
-/// Influence coefficients and friction of the contacts and of the hinges that turn. Rows are the normal
-/// forces, then both components of the force of each hinge, then outputs.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ProblemCoefficients<T: Real = f64> {
-    /// Those of the contacts, in all rows.
-    pub(crate) contacts: InfluenceCoefficients<T>,
-    /// Changes of each row per unit couple on the first body of each hinge.
-    pub(crate) couples: DMatrix<T>,
-    /// The hinges, each with its friction circle.
-    pub(crate) hinges: Vec<(TurningHinge, FrictionCircle<T>)>,
-}
-
-/// The numbers of a problem.
-#[derive(Debug, Clone)]
-pub(crate) struct BlockNumbers<T: Real = f64> {
-    /// `H^sigma`, a column for each contact and hinge.
-    pub(crate) response: BySide<DMatrix<T>>,
-    /// `d^sigma`, a column for each contact.
-    pub(crate) jumps: BySide<DMatrix<T>>,
-    /// `b`.
-    pub(crate) load: DVector<T>,
-}
-
-impl<T: Real> ProblemCoefficients<T> {
-    /// With all friction multiplied by a factor.
-    pub(crate) fn rougher(&self, factor: T) -> Self {
-        let mut rougher = self.clone();
-        rougher.contacts.mu = self.contacts.mu.map(|mu| mu.map(|mu| mu * factor));
-        rougher.hinges.iter_mut().for_each(|(_, circle)| *circle = circle.times(factor));
-        rougher
-    }
-
-    /// The numbers of the block mode problem.
-    pub(crate) fn numbers(&self) -> BlockNumbers<T> {
-        let (rows, contacts) = self.contacts.eta.positive.shape();
-        let response = BySide::of(|side| {
-            DMatrix::from_fn(rows, contacts + self.hinges.len(), |row, block| {
-                match block.checked_sub(contacts) {
-                    None => self.contacts.response(side, row, block),
-                    Some(hinge) => self.response_to_hinge(row, hinge),
-                }
-            })
-        });
-        BlockNumbers { response, jumps: self.contacts.jumps(), load: self.contacts.right_hand_side() }
-    }
-
-    /// `-r_j sgn(omega_j)` times the answer to a unit couple; compatibility of deflections knows no couples.
-    fn response_to_hinge(&self, row: usize, hinge: usize) -> T {
-        let is_cut = self.contacts.shared.as_ref().is_some_and(|shared| shared.cut.contains(&row));
-        let (turning, circle) = &self.hinges[hinge];
-        if is_cut { T::zero() } else { self.couples[(row, hinge)] * turning.leverage(circle) }
-    }
-}
-
-impl<T: Real> BlockNumbers<T> {
-    /// Those in some rows.
-    pub(crate) fn rows(&self, rows: Range<usize>) -> Self {
-        let part = |matrix: &DMatrix<T>| matrix.rows_range(rows.clone()).into_owned();
-        Self {
-            response: self.response.map(part),
-            jumps: self.jumps.map(part),
-            load: self.load.rows_range(rows.clone()).into_owned(),
-        }
-    }
-
-    /// Whether no number is infinite or undefined.
-    pub(crate) fn are_finite(&self) -> bool {
-        let sides = [&self.response, &self.jumps].map(|both| both.positive.iter().chain(&both.negative));
-        sides.into_iter().flatten().chain(&self.load).all(|number| number.is_finite())
-    }
-}
-
-impl BlockNumbers {
-    /// The problem of exact numbers.
-    ///
-    /// # Errors
-    /// Numbers that are not finite.
-    pub(crate) fn problem(self) -> Result<BlockProblem, ModeProblemError> {
-        BlockProblem::new(self.response, self.jumps, self.load)
-    }
-}
-
-impl BlockNumbers<Interval> {
-    /// The problem of numbers within bounds. Returns `None` if one has none.
-    pub(crate) fn problem(&self) -> Option<BlockProblem> {
-        let bounded = |matrix: &DMatrix<Interval>| IntervalMatrix::from_intervals(matrix).ok_or(());
-        let both = |sides: &BySide<DMatrix<Interval>>| sides.try_map(|_, side| bounded(side)).ok();
-        let load = DMatrix::from_columns(std::slice::from_ref(&self.load));
-        let load = bounded(&load).ok()?;
-        BlockProblem::within_bounds(both(&self.response)?, both(&self.jumps)?, load).ok()
     }
 }
 
@@ -162,7 +62,10 @@ pub(crate) fn without_rounding(mechanism: &Mechanism, eta: [DMatrix<f64>; 2]) ->
 }
 
 /// The columns of the preload's friction: at the pressed face, or in the middle between both.
-pub(crate) fn preload_columns(mechanism: &Mechanism, eta: &BySide<DMatrix<f64>>) -> BySide<DMatrix<f64>> {
+pub(crate) fn preload_columns<T: Real>(
+    mechanism: &Mechanism<T>,
+    eta: &BySide<DMatrix<T>>,
+) -> BySide<DMatrix<T>> {
     let mut preload = eta.clone();
     for (k, contact) in mechanism.contacts.iter().enumerate() {
         for row in 0..eta.positive.nrows() {

@@ -142,6 +142,7 @@ pub(crate) fn redundant(contacts: usize, self_stresses: usize) -> ModeProblem {
         frictionless: load,
         shared: Some(shared),
         one_sided: vec![],
+        turning: vec![],
     })
     .expect("shapes fit")
 }

@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::problem::BlockProblem;
-use super::sector::{Sector, Vector};
+use super::sector::{Sector, Vector, unit};
 use crate::interval::Real;
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::{ContactState, Side};
@@ -91,6 +91,17 @@ pub(crate) fn matrix(
         }
     }
     matrix
+}
+
+impl BlockProblem {
+    /// Returns `I - H D` in a solution with these states of the contacts and reactions of the hinges, with the directions
+    /// `x_j / |x_j|` of the blocks on the diagonal of `D` (theory of hinges, section 4); the column of a contact in its gap is
+    /// that of its share, `d_k^- - d_k^+`.
+    pub fn slopes(&self, states: &[ContactState], reactions: &[[f64; 2]]) -> DMatrix<f64> {
+        let states: Vec<_> = states.iter().copied().map(Some).collect();
+        let hinges = reactions.iter().copied().map(unit).collect();
+        matrix(self, &states, &Slopes { contacts: vec![0.0; self.contacts()], hinges })
+    }
 }
 
 /// `b + d`: the right-hand side for the states of a piece, in which no contact that jumps is open.

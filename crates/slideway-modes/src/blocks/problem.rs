@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
+use crate::interval::Interval;
 use crate::interval_matrix::IntervalMatrix;
-use crate::problem::{BySide, ContactState, ModeProblemError, ProblemPart, Side};
+use crate::problem::{BlockNumbers, BySide, ContactState, ModeProblemError, ProblemPart, Side};
 
 /// The mode problem of `s` contacts and `h` hinges with friction,
 ///
@@ -196,6 +197,28 @@ impl BlockProblem {
     /// The jump vector in the load of a contact in a known state; of one in its gap, that of the negative side.
     pub(super) fn constant_jump(state: ContactState) -> Side {
         state.side().unwrap_or(Side::Negative)
+    }
+}
+
+impl BlockNumbers {
+    /// The problem of exact numbers.
+    ///
+    /// # Errors
+    /// As [`BlockProblem::new`].
+    pub fn problem(self) -> Result<BlockProblem, ModeProblemError> {
+        BlockProblem::new(self.response, self.jumps, self.load)
+    }
+}
+
+impl BlockNumbers<Interval> {
+    /// The problem of numbers within bounds. Returns `None` if one has none.
+    pub fn problem(&self) -> Option<BlockProblem> {
+        let both = |sides: &BySide<DMatrix<Interval>>| {
+            sides.try_map(|_, side| IntervalMatrix::from_intervals(side).ok_or(())).ok()
+        };
+        let load = DMatrix::from_columns(std::slice::from_ref(&self.load));
+        let load = IntervalMatrix::from_intervals(&load)?;
+        BlockProblem::within_bounds(both(&self.response)?, both(&self.jumps)?, load).ok()
     }
 }
 

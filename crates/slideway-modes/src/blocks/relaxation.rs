@@ -21,7 +21,7 @@ use super::problem::BlockProblem;
 use super::sector::length;
 use crate::interval::Interval;
 use crate::interval_matrix::{IntervalMatrix, inner_product};
-use crate::problem::{ContactState, Side};
+use crate::problem::{ContactState, Side, column_slice, pressed_sides};
 use crate::simplex::{Bounds, LinearOutcome, LinearProgram};
 
 /// A piece is not excluded if the least sum of errors is below this.
@@ -154,16 +154,6 @@ pub(super) fn shares(problem: &BlockProblem, piece: &Piece, contact: usize) -> b
     problem.has_jump(contact) && piece.states[contact].is_none_or(|state| state == ContactState::Gap)
 }
 
-/// The sides on which a contact may be pressed.
-fn sides(state: Option<ContactState>) -> &'static [Side] {
-    match state {
-        Some(ContactState::Positive) => &[Side::Positive],
-        Some(ContactState::Negative) => &[Side::Negative],
-        Some(ContactState::Gap) => &[],
-        None => &Side::BOTH,
-    }
-}
-
 /// The combination `P` of the equations of a small piece: the inverse of the slopes in its middle, and for each
 /// hinge the component along its sector, and the one across it divided by the half angle.
 ///
@@ -235,7 +225,7 @@ fn columns<'p>(
         all,
     };
     for (contact, &state) in piece.states.iter().enumerate() {
-        for &side in sides(state) {
+        for &side in pressed_sides(state) {
             let response = centre(problem.response(side), contact).iter().enumerate();
             let own = |row: usize| if row == contact { side.sign() } else { 0.0 };
             columns.add_share(Meaning::Pressed(contact, side), response.map(|(row, value)| own(row) - value));
@@ -347,18 +337,14 @@ fn point(problem: &BlockProblem, meanings: &[(Meaning, f64)], values: &[f64]) ->
 fn excludes(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> bool {
     let strict = problem.has_no_load();
     let is_fine = |least: f64| if strict { least > 0.0 } else { least >= 0.0 };
-    let times = |part: &IntervalMatrix, column: usize| {
-        let radius = slice(part.radius(), column);
-        inner_product(vector, centre(part, column), Some(radius))
-    };
     let contacts = piece.states.iter().enumerate().all(|(contact, &state)| {
-        sides(state).iter().all(|&side| {
+        pressed_sides(state).iter().all(|&side| {
             let own = Interval::point(vector[contact]) * Interval::point(side.sign());
-            is_fine((own - times(problem.response(side), contact)).lower())
+            is_fine((own - times(vector, problem.response(side), contact)).lower())
         })
     });
     let hinges = piece.sectors.iter().enumerate().all(|(hinge, sector)| {
-        let response = times(problem.response(Side::Positive), problem.contacts() + hinge);
+        let response = times(vector, problem.response(Side::Positive), problem.contacts() + hinge);
         let own = sector.least(problem.rows_of_hinge(hinge).map(|row| vector[row]));
         is_fine((Interval::point(own) - response).lower())
     });
@@ -370,26 +356,22 @@ fn excludes(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> bool {
 
 /// Bounds of the product of a vector with all loads `b + d` of a piece.
 pub(super) fn load_product(problem: &BlockProblem, piece: &Piece, vector: &[f64]) -> Interval {
-    let times = |part: &IntervalMatrix, column: usize| {
-        let radius = slice(part.radius(), column);
-        inner_product(vector, centre(part, column), Some(radius))
-    };
     let jump = |(contact, &state): (usize, &Option<ContactState>)| {
-        let [positive, negative] = Side::BOTH.map(|side| times(problem.jumps(side), contact));
+        let [positive, negative] = Side::BOTH.map(|side| times(vector, problem.jumps(side), contact));
         match state {
             _ if shares(problem, piece, contact) => positive.hull(negative),
             Some(ContactState::Negative | ContactState::Gap) => negative,
             Some(ContactState::Positive) | None => positive,
         }
     };
-    piece.states.iter().enumerate().map(jump).fold(times(problem.load(), 0), |sum, part| sum + part)
+    piece.states.iter().enumerate().map(jump).fold(times(vector, problem.load(), 0), |sum, part| sum + part)
+}
+
+/// Bounds of the product of a vector with a column.
+fn times(vector: &[f64], part: &IntervalMatrix, column: usize) -> Interval {
+    inner_product(vector, centre(part, column), Some(column_slice(part.radius(), column)))
 }
 
 fn centre(part: &IntervalMatrix, column: usize) -> &[f64] {
-    slice(part.centre(), column)
-}
-
-fn slice(matrix: &DMatrix<f64>, column: usize) -> &[f64] {
-    let rows = matrix.nrows();
-    &matrix.as_slice()[column * rows..][..rows]
+    column_slice(part.centre(), column)
 }

@@ -236,14 +236,12 @@ impl<'a, 'c> Tree<'a, 'c> {
             return Some(piece.sectors[hinge].parts(self.manner.first_angle).into_iter().map(part).collect());
         }
         let contact = contact?;
-        let states: &[ContactState] =
-            if self.problem.has_jump(contact) { &ContactState::ALL } else { &ContactState::PRESSED };
         let part = |&state: &ContactState| {
             let mut part = piece.clone();
             part.states[contact] = Some(state);
             part
         };
-        Some(states.iter().map(part).collect())
+        Some(ContactState::options(self.problem.has_jump(contact)).iter().map(part).collect())
     }
 
     /// Whether the direction of a hinge matters: its reaction does not vanish, or its sector is wide.

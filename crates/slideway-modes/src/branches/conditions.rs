@@ -2,30 +2,15 @@
 
 use nalgebra::DVector;
 
-use super::family::{Instance, Outputs};
+use super::family::Instance;
 use super::place::{Equations, Place};
-use crate::existence::EndCause;
-use crate::problem::{ContactState, Side};
+use crate::existence::{EndCause, Meaning, cause_of};
+use crate::problem::{BlockNumbers, ContactState, Side};
 
 /// Conditions missed by less than this share of the largest unknown are met.
 const SLIGHT: f64 = 1e-12;
 /// What is below this share at an end vanishes there.
 const VANISHES: f64 = 1e-9;
-
-/// The meaning of a condition.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Meaning {
-    /// The solution is finite: `lambda > 0`.
-    Finite,
-    /// `N_k` has its side.
-    Side(usize),
-    /// The share of the positive face is from 0 to 1.
-    Gap(usize),
-    /// `|output| <= factor |N_k|`.
-    Bound(usize),
-    /// `|N_k| <= greatest`.
-    Greatest(usize),
-}
 
 /// A condition at a place, met where its value is not negative.
 #[derive(Debug, Clone, Copy)]
@@ -123,32 +108,8 @@ pub(super) fn cause(here: &[Condition], beyond: &[Condition]) -> Option<EndCause
     cause_of(&left, &vanishing)
 }
 
-/// Why a branch ends where it leaves these conditions and those vanish; none if it leaves none.
-pub(super) fn cause_of(left: &[Meaning], vanishing: &[Meaning]) -> Option<EndCause> {
-    let concerned = |wanted: fn(Meaning) -> Option<usize>| {
-        left.iter().any(|&meaning| wanted(meaning).is_some()).then(|| {
-            let mut list: Vec<usize> = vanishing.iter().filter_map(|&meaning| wanted(meaning)).collect();
-            list.dedup();
-            list
-        })
-    };
-    let sides = concerned(|meaning| if let Meaning::Side(contact) = meaning { Some(contact) } else { None });
-    let gaps = concerned(|meaning| if let Meaning::Gap(contact) = meaning { Some(contact) } else { None });
-    let bounds = concerned(|meaning| if let Meaning::Bound(bound) = meaning { Some(bound) } else { None });
-    let greatest =
-        concerned(|meaning| if let Meaning::Greatest(contact) = meaning { Some(contact) } else { None });
-    if left.contains(&Meaning::Finite) {
-        return Some(EndCause::Singular);
-    }
-    sides
-        .map(EndCause::SideChange)
-        .or(gaps.map(EndCause::GapCloses))
-        .or(bounds.map(EndCause::OutputBound))
-        .or(greatest.map(EndCause::GreatestNormalForce))
-}
-
 /// An output as a linear function, in the unit of forces.
-fn output(outputs: &Outputs, equations: &Equations, row: usize, (load, hinges): (usize, usize)) -> Rule {
+fn output(outputs: &BlockNumbers, equations: &Equations, row: usize, (load, hinges): (usize, usize)) -> Rule {
     let (unit, contacts) = (equations.unit, equations.states.len());
     let mut weights = DVector::zeros(load + 1);
     weights[load] = outputs.load[row] / unit;

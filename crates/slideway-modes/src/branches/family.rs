@@ -1,10 +1,8 @@
 //! Block problems of a parameter.
 
-use nalgebra::{DMatrix, DVector};
-
 use crate::blocks::{BlockProblem, times};
 use crate::existence::OutputBound;
-use crate::problem::{BySide, ModeProblemError};
+use crate::problem::{BlockNumbers, ModeProblemError};
 
 /// The block problem at each value of a parameter, or why there is none. All of them have the same contacts and
 /// hinges.
@@ -16,7 +14,7 @@ pub struct Instance {
     /// The problem.
     pub problem: BlockProblem,
     /// Further unknowns, such as the couples of guided sliders.
-    pub outputs: Outputs,
+    pub outputs: BlockNumbers,
     /// Bounds of them, which a solution has to keep.
     pub bounds: Vec<OutputBound>,
     /// The senses of all motions with friction. Where they change the problem jumps, and every branch ends.
@@ -42,17 +40,6 @@ impl Instance {
     }
 }
 
-/// Outputs `o + d_o^sigma + H_o^sigma w`, with one row each and columns as those of the problem.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Outputs {
-    /// What the magnitudes of the blocks add.
-    pub response: BySide<DMatrix<f64>>,
-    /// What the jumps of the contacts add.
-    pub jumps: BySide<DMatrix<f64>>,
-    /// Without friction.
-    pub load: DVector<f64>,
-}
-
 /// Why there is no problem at a value.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NoInstance {
@@ -60,15 +47,4 @@ pub enum NoInstance {
     NoSense,
     /// Anything else.
     Other,
-}
-
-impl Outputs {
-    /// No outputs, for a problem of so many contacts and blocks.
-    pub fn none(contacts: usize, blocks: usize) -> Self {
-        Self {
-            response: BySide::same(DMatrix::zeros(0, blocks)),
-            jumps: BySide::same(DMatrix::zeros(0, contacts)),
-            load: DVector::zeros(0),
-        }
-    }
 }

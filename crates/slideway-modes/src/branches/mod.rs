@@ -32,7 +32,7 @@ mod radius;
 mod samples;
 
 pub use branch::{Branch, BranchEnd, BranchForces, Branches, Gap};
-pub use family::{Family, Instance, NoInstance, Outputs};
+pub use family::{Family, Instance, NoInstance};
 pub use find::{BranchOptions, branches};
 pub use follow::{end_of, keeps_bounds};
 pub use radius::over_radius;

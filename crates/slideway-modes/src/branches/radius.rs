@@ -13,16 +13,16 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::branch::{Branch, BranchEnd, Branches};
-use super::conditions::{Meaning, cause_of, rules};
+use super::conditions::rules;
 use super::curve::Curve;
 use super::family::{Instance, NoInstance};
 use super::place::{Equations, Place};
-use crate::existence::EndCause;
+use crate::existence::{EndCause, Meaning, cause_of};
 use crate::interval::Sign;
-use crate::problem::ContactState;
+use crate::problem::{ContactState, patterns};
 
 /// The most modes that are examined.
-const MODES: usize = 1 << 12;
+const MODES: u64 = 1 << 12;
 /// Modes whose determinant is below this are singular within rounding.
 const SINGULAR: f64 = 1e-12;
 /// Values below this, relative to what they are sums of, vanish.
@@ -48,7 +48,8 @@ pub fn over_radius(
         return None;
     }
     let mut branches = Vec::new();
-    for states in modes(instance)? {
+    let has_jump: Vec<bool> = (0..problem.contacts()).map(|contact| problem.has_jump(contact)).collect();
+    for states in patterns(&has_jump, MODES)? {
         let mode = Mode::new(instance, radius, (&states, unit))?;
         for part in mode.parts(greatest)? {
             branches.extend(mode.branch(&part, range, greatest));
@@ -56,23 +57,6 @@ pub fn over_radius(
     }
     branches.sort_by(Branch::order);
     Some(Branches { branches, tried: range.to_vec(), gaps: Vec::new() })
-}
-
-/// All states of the contacts; none if there are too many.
-fn modes(instance: &Instance) -> Option<Vec<Vec<ContactState>>> {
-    let mut modes = vec![Vec::new()];
-    for contact in 0..instance.problem.contacts() {
-        let has_jump = instance.problem.has_jump(contact);
-        let states = if has_jump { &ContactState::ALL[..] } else { &ContactState::PRESSED[..] };
-        let with = |mode: &Vec<ContactState>| {
-            states.iter().map(|&state| [mode.as_slice(), &[state]].concat()).collect::<Vec<_>>()
-        };
-        modes = modes.iter().flat_map(with).collect();
-        if modes.len() > MODES {
-            return None;
-        }
-    }
-    Some(modes)
 }
 
 /// A mode, with its unknowns as affine functions of the couple.

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::dense::shortest_with_products;
 use crate::interval::Interval;
 use crate::interval_matrix::inner_product;
-use crate::problem::{Column, ContactState, ProblemView, Side};
+use crate::problem::{Column, ContactState, ProblemView, Side, pressed_sides};
 
 /// Products within this fraction of the size of their terms may be zero except for rounding and the bounds of
 /// the data.
@@ -101,7 +101,7 @@ fn usable_columns<'a>(
     problem: ProblemView<'a>,
     partial: &[Option<ContactState>],
 ) -> impl Iterator<Item = Column<'a>> {
-    let sides = partial.iter().map(|&state| column_sides(state)).enumerate();
+    let sides = partial.iter().map(|&state| pressed_sides(state)).enumerate();
     sides.flat_map(move |(contact, sides)| sides.iter().map(move |&side| problem.column(contact, side)))
 }
 
@@ -179,16 +179,6 @@ fn direction_inwards(
     let sizes = DVector::from_iterator(columns.len(), columns.iter().map(|&column| size(column)));
     let direction = shortest_with_products(matrix, &sizes, proceed)?;
     direction.iter().all(|value| value.is_finite()).then(|| direction.as_slice().to_vec())
-}
-
-/// The sides on which a contact may be pressed.
-pub(super) fn column_sides(state: Option<ContactState>) -> &'static [Side] {
-    match state {
-        Some(ContactState::Positive) => &[Side::Positive],
-        Some(ContactState::Negative) => &[Side::Negative],
-        Some(ContactState::Gap) => &[],
-        None => &Side::BOTH,
-    }
 }
 
 /// The sides whose jump vectors may contribute to the right-hand side.

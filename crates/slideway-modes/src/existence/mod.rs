@@ -27,8 +27,7 @@ use nalgebra::{DMatrix, DVector};
 use std::ops::ControlFlow;
 
 use crate::interval::Sign;
-use crate::problem::OpenContacts;
-use crate::problem::{BySide, ContactState, ModeProblem, Side};
+use crate::problem::{BySide, ContactState, ModeProblem, OpenContacts, Side, patterns};
 use crate::progress::{Callback, Progress};
 use extent::Extent;
 use line::{Cause, Condition, End, Line, Part, Value};
@@ -392,22 +391,7 @@ impl ModeProblemLine {
     fn patterns(&self, limit: u64) -> Result<Vec<Vec<ContactState>>, TooManyModes> {
         let with_jump = self.has_jump.iter().filter(|&&jump| jump).count();
         let contacts = self.contacts();
-        let count = 3_f64.powf(with_jump as f64) * ((contacts - with_jump) as f64).exp2();
-        if count > limit as f64 {
-            return Err(TooManyModes { contacts, with_jump, limit });
-        }
-        let mut patterns = vec![Vec::with_capacity(contacts)];
-        for &jump in &self.has_jump {
-            let states = if jump { &ContactState::ALL[..] } else { &ContactState::PRESSED[..] };
-            let with = |pattern: &Vec<ContactState>, state: ContactState| {
-                let mut longer = pattern.clone();
-                longer.push(state);
-                longer
-            };
-            patterns =
-                patterns.iter().flat_map(|old| states.iter().map(move |&new| with(old, new))).collect();
-        }
-        Ok(patterns)
+        patterns(&self.has_jump, limit).ok_or(TooManyModes { contacts, with_jump, limit })
     }
 
     /// The equations of one pattern. Unknowns: `y_k`, or the share `lambda_k` for a contact in its gap, then
@@ -487,8 +471,10 @@ fn first_change(zeros: &[f64], sign_at: &dyn Fn(f64) -> Option<Sign>) -> Option<
 const INFINITY: f64 = 1e-6;
 
 /// The meaning of a condition.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Meaning {
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    /// The solution is finite.
+    Finite,
     /// `y_k >= 0`.
     Side(usize),
     /// `0 <= lambda_k <= 1`.
@@ -497,6 +483,31 @@ enum Meaning {
     Bound(usize),
     /// `y_k <= greatest normal force`.
     Greatest(usize),
+}
+
+/// Why a mode ends where it leaves these conditions and those vanish; none if it leaves none. Tipping and changes of side
+/// take precedence over merely reaching a limit.
+pub(crate) fn cause_of(left: &[Meaning], vanishing: &[Meaning]) -> Option<EndCause> {
+    let concerned = |wanted: fn(Meaning) -> Option<usize>| {
+        left.iter().any(|&meaning| wanted(meaning).is_some()).then(|| {
+            let mut list: Vec<usize> = vanishing.iter().filter_map(|&meaning| wanted(meaning)).collect();
+            list.dedup();
+            list
+        })
+    };
+    let sides = concerned(|meaning| if let Meaning::Side(contact) = meaning { Some(contact) } else { None });
+    let gaps = concerned(|meaning| if let Meaning::Gap(contact) = meaning { Some(contact) } else { None });
+    let bounds = concerned(|meaning| if let Meaning::Bound(bound) = meaning { Some(bound) } else { None });
+    let greatest =
+        concerned(|meaning| if let Meaning::Greatest(contact) = meaning { Some(contact) } else { None });
+    if left.contains(&Meaning::Finite) {
+        return Some(EndCause::Singular);
+    }
+    sides
+        .map(EndCause::SideChange)
+        .or(gaps.map(EndCause::GapCloses))
+        .or(bounds.map(EndCause::OutputBound))
+        .or(greatest.map(EndCause::GreatestNormalForce))
 }
 
 /// One pattern along the line.
@@ -573,33 +584,14 @@ impl Mode<'_> {
         ModeEnd { at: end.at, cause: self.cause(&end.cause), normal_force }
     }
 
-    /// The cause in terms of contacts; tipping and changes of side take precedence over merely reaching a
-    /// limit.
+    /// The cause in terms of contacts.
     fn cause(&self, cause: &Cause) -> EndCause {
         let conditions = match cause {
             Cause::Range => return EndCause::Range,
             Cause::Singular => return EndCause::Singular,
             Cause::Conditions(conditions) => conditions,
         };
-        let list = |pick: fn(Meaning) -> Option<usize>| {
-            let mut list: Vec<usize> = conditions.iter().filter_map(|&c| pick(self.meanings[c])).collect();
-            list.dedup();
-            list
-        };
-        let sides = list(|meaning| if let Meaning::Side(contact) = meaning { Some(contact) } else { None });
-        let gaps = list(|meaning| if let Meaning::Gap(contact) = meaning { Some(contact) } else { None });
-        let bounds = list(|meaning| if let Meaning::Bound(bound) = meaning { Some(bound) } else { None });
-        if !sides.is_empty() {
-            EndCause::SideChange(sides)
-        } else if !gaps.is_empty() {
-            EndCause::GapCloses(gaps)
-        } else if !bounds.is_empty() {
-            EndCause::OutputBound(bounds)
-        } else {
-            EndCause::GreatestNormalForce(list(|meaning| match meaning {
-                Meaning::Greatest(contact) => Some(contact),
-                _ => None,
-            }))
-        }
+        let meanings: Vec<Meaning> = conditions.iter().map(|&condition| self.meanings[condition]).collect();
+        cause_of(&meanings, &meanings).unwrap_or(EndCause::GreatestNormalForce(Vec::new()))
     }
 }

@@ -243,7 +243,7 @@ impl<'a> ProblemView<'a> {
     }
 }
 
-fn column_slice(matrix: &DMatrix<f64>, column: usize) -> &[f64] {
+pub(crate) fn column_slice(matrix: &DMatrix<f64>, column: usize) -> &[f64] {
     let rows = matrix.nrows();
     &matrix.as_slice()[column * rows..(column + 1) * rows]
 }

@@ -1,4 +1,6 @@
-//! Mode problems of contacts with dry friction, from their influence coefficients: exact, or within bounds.
+//! Mode problems and block mode problems with dry friction, from their influence coefficients: exact, or within bounds.
+
+use std::ops::Range;
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,14 +11,15 @@ use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
 use crate::problem::shared_load::SharedLoad;
 use crate::problem::side::{BySide, ProblemPart, Side};
 
-/// Influence coefficients and friction parameters of `r` contacts, exact or within bounds.
+/// Influence coefficients and friction parameters of `r` contacts, and of hinges that turn with friction, exact or within
+/// bounds.
 ///
 /// ```text
 /// c_k^{sigma} = sigma e_k - mu_k^{sigma} s_k eta_k^{sigma},   d_k^{sigma} = s_k F_k0^{sigma} eta_preload_k^{sigma}
 /// ```
 ///
-/// (Klepp (2002), eq. (6)). There may be further rows below those of the contacts, of other unknowns than
-/// their normal forces; a mode problem has none.
+/// (Klepp (2002), eq. (6)). There may be further rows below those of the contacts: first of both components of the force of
+/// each hinge, then of other unknowns. A mode problem has none.
 #[derive(Debug, Clone, PartialEq)]
 pub struct InfluenceCoefficients<T: Real = f64> {
     /// `eta_jk`, change of `N_j` per unit friction at contact `k` (r x r, dimensionless);
@@ -43,6 +46,48 @@ pub struct InfluenceCoefficients<T: Real = f64> {
     /// c_k^- = -(dN/dg''_k) / |dN_k/dg''_k|,    y_k = |dN_k/dg''_k| g''_k
     /// ```
     pub one_sided: Vec<(usize, DVector<T>)>,
+    /// The hinges that turn with friction: what a unit couple on the first body of each adds in all rows, and the couple by
+    /// a unit of its force, `-r_j sgn(omega_j)` (theory of hinges, section 1).
+    pub turning: Vec<(DVector<T>, T)>,
+}
+
+/// The numbers of `x = b + d^sigma + H^sigma w`, or of outputs `o` in place of `x`, with one row each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BlockNumbers<T: Real = f64> {
+    /// `H^sigma`, what the magnitudes add: a column for each contact, then for each hinge.
+    pub response: BySide<DMatrix<T>>,
+    /// `d^sigma`, what the jumps of the contacts add: a column for each.
+    pub jumps: BySide<DMatrix<T>>,
+    /// `b`, the rest.
+    pub load: DVector<T>,
+}
+
+impl<T: Real> BlockNumbers<T> {
+    /// No rows, for so many contacts and blocks.
+    pub fn none(contacts: usize, blocks: usize) -> Self {
+        Self {
+            response: BySide::same(DMatrix::from_fn(0, blocks, |_, _| T::zero())),
+            jumps: BySide::same(DMatrix::from_fn(0, contacts, |_, _| T::zero())),
+            load: DVector::from_fn(0, |_, _| T::zero()),
+        }
+    }
+
+    /// Those in some rows.
+    #[must_use]
+    pub fn rows(&self, rows: Range<usize>) -> Self {
+        let part = |matrix: &DMatrix<T>| matrix.rows_range(rows.clone()).into_owned();
+        Self {
+            response: self.response.map(part),
+            jumps: self.jumps.map(part),
+            load: self.load.rows_range(rows.clone()).into_owned(),
+        }
+    }
+
+    /// Whether no number is infinite or undefined.
+    pub fn are_finite(&self) -> bool {
+        let sides = [&self.response, &self.jumps].map(|both| both.positive.iter().chain(&both.negative));
+        sides.into_iter().flatten().chain(&self.load).all(|number| number.is_finite())
+    }
 }
 
 impl<T: Real> InfluenceCoefficients<T> {
@@ -70,6 +115,32 @@ impl<T: Real> InfluenceCoefficients<T> {
             self.shared.as_ref().map_or(given, |shared| shared.load(row, given))
         };
         DVector::from_fn(self.frictionless.len(), |row, _| load(row))
+    }
+
+    /// The numbers of the block mode problem, in all rows.
+    pub fn numbers(&self) -> BlockNumbers<T> {
+        let (rows, contacts) = (self.frictionless.len(), self.contacts());
+        let response = |side: Side, row: usize, block: usize| match block.checked_sub(contacts) {
+            None => self.response(side, row, block),
+            Some(hinge) => self.response_to_hinge(row, hinge),
+        };
+        let blocks = contacts + self.turning.len();
+        BlockNumbers {
+            response: BySide::of(|side| {
+                DMatrix::from_fn(rows, blocks, |row, block| response(side, row, block))
+            }),
+            jumps: self.jumps(),
+            load: self.right_hand_side(),
+        }
+    }
+
+    /// With all friction multiplied by a factor, but for that of preloads.
+    #[must_use]
+    pub fn rougher(&self, factor: T) -> Self {
+        let mut rougher = self.clone();
+        rougher.mu = self.mu.map(|mu| mu.map(|mu| mu * factor));
+        rougher.turning.iter_mut().for_each(|(_, leverage)| *leverage *= factor);
+        rougher
     }
 
     fn sides(&self, entry: fn(&Self, Side, usize, usize) -> T) -> BySide<DMatrix<T>> {
@@ -101,9 +172,16 @@ impl<T: Real> InfluenceCoefficients<T> {
     }
 
     /// `H_k^sigma` of `x = b + d^sigma + H^sigma |x|` in a row: `sigma e_k - c_k^sigma`.
-    pub fn response(&self, side: Side, row: usize, contact: usize) -> T {
+    fn response(&self, side: Side, row: usize, contact: usize) -> T {
         let given = self.added(side, row, contact);
         self.shared.as_ref().map_or(given, |shared| shared.response(side, row, contact, given))
+    }
+
+    /// `-r_j sgn(omega_j)` times the answer to a unit couple; compatibility of deflections knows no couples.
+    fn response_to_hinge(&self, row: usize, hinge: usize) -> T {
+        let is_cut = self.shared.as_ref().is_some_and(|shared| shared.cut.contains(&row));
+        let (answers, leverage) = &self.turning[hinge];
+        if is_cut { T::zero() } else { answers[row] * *leverage }
     }
 
     /// `s_k F_k0 eta_preload_jk`, the force that the friction of the preload adds in a row.
@@ -119,6 +197,11 @@ impl<T: Real> InfluenceCoefficients<T> {
 
     fn check(&self) -> Result<(), ModeProblemError> {
         let contacts = self.contacts();
+        if !self.turning.is_empty() {
+            let (part, expected) = (ProblemPart::Columns(Side::Positive), (contacts, contacts));
+            let found = (contacts, contacts + self.turning.len());
+            return Err(ModeProblemError::Shape { part, expected, found });
+        }
         let is_sign = |sign: f64| sign == 0.0 || sign.abs() == 1.0;
         if let Some((contact, &value)) = self.velocity_signs.iter().enumerate().find(|&(_, &s)| !is_sign(s)) {
             return Err(ModeProblemError::VelocitySign { contact, value });
@@ -188,6 +271,7 @@ impl ModeProblem {
     ///     frictionless: dvector![4.0],
     ///     shared: None,
     ///     one_sided: vec![],
+    ///     turning: vec![],
     /// })?;
     /// let solutions = enumerate(&problem, &Limits::default())?;
     /// assert!((solutions.solutions[0].normal_force[0] - 5.0).abs() < 1e-12);
@@ -218,6 +302,7 @@ impl ModeProblem {
     ///         press_fits: vec![],
     ///     }),
     ///     one_sided: vec![],
+    ///     turning: vec![],
     /// })?;
     /// let solutions = enumerate(&problem, &Limits::default())?;
     /// assert!((&solutions.solutions[0].normal_force - dvector![4.0, 6.0]).amax() < 1e-12);
@@ -256,6 +341,7 @@ impl IntervalModeProblem {
     ///     frictionless: dvector![Interval::point(4.0)],
     ///     shared: None,
     ///     one_sided: vec![],
+    ///     turning: vec![],
     /// })?;
     /// let decision = decide(&problem, &[ContactState::Positive]).decision;
     /// assert!(matches!(decision, Decision::Solution { .. }), "it persists for all mu");

@@ -14,12 +14,12 @@ mod scaling;
 mod shared_load;
 mod side;
 
-pub(crate) use bounds::Column;
+pub(crate) use bounds::{Column, column_slice};
 pub use bounds::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
-pub use influence::InfluenceCoefficients;
+pub use influence::{BlockNumbers, InfluenceCoefficients};
 pub use mode_problem::{ModeProblem, ModeProblemError};
-pub(crate) use pattern::advance;
 pub use pattern::{ContactState, SetPart, SolutionSet};
+pub(crate) use pattern::{advance, patterns, pressed_sides};
 pub(crate) use radii::Radii;
 pub(crate) use scaling::{ScaledProblem, exponent_of, patterns_of, power_of_two_above};
 pub use shared_load::{OpenContacts, SharedLoad};

@@ -19,6 +19,11 @@ impl ContactState {
     pub(crate) const PRESSED: [Self; 2] = [Self::Positive, Self::Negative];
     pub(crate) const ALL: [Self; 3] = [Self::Positive, Self::Negative, Self::Gap];
 
+    /// The states that a contact can take, in the order of enumeration: with its gap if the right-hand side jumps with its side.
+    pub(crate) fn options(has_jump: bool) -> &'static [Self] {
+        if has_jump { &Self::ALL } else { &Self::PRESSED }
+    }
+
     /// The side on which the contact is pressed; `None` in the gap.
     pub fn side(self) -> Option<Side> {
         match self {
@@ -58,6 +63,31 @@ pub(crate) fn advance<'s>(
         }
     }
     false
+}
+
+/// All patterns of contacts, in the order of enumeration, by whether each jumps; `None` if there are more than `limit`.
+pub(crate) fn patterns(has_jump: &[bool], limit: u64) -> Option<Vec<Vec<ContactState>>> {
+    let states = |contact: usize| ContactState::options(has_jump[contact]);
+    let count: f64 = (0..has_jump.len()).map(|contact| states(contact).len() as f64).product();
+    if count > limit as f64 {
+        return None;
+    }
+    let mut pattern = vec![ContactState::Positive; has_jump.len()];
+    let mut patterns = vec![pattern.clone()];
+    while advance(&mut pattern, states) {
+        patterns.push(pattern.clone());
+    }
+    Some(patterns)
+}
+
+/// The sides on which a contact may be pressed.
+pub(crate) fn pressed_sides(state: Option<ContactState>) -> &'static [Side] {
+    match state {
+        Some(ContactState::Positive) => &[Side::Positive],
+        Some(ContactState::Negative) => &[Side::Negative],
+        Some(ContactState::Gap) => &[],
+        None => &Side::BOTH,
+    }
 }
 
 /// What a singular pattern admits: points and directions of signed normal forces or, for an

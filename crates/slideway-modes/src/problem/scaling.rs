@@ -127,7 +127,7 @@ impl ScaledProblem {
 
     /// The states that a contact can take, in the order of enumeration.
     pub(crate) fn states(&self, contact: usize) -> &'static [ContactState] {
-        if self.has_jump[contact] { &ContactState::ALL } else { &ContactState::PRESSED }
+        ContactState::options(self.has_jump[contact])
     }
 
     /// Number of patterns of the contacts from `first` on: without and with gap states.

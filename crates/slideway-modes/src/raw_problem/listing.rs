@@ -5,8 +5,9 @@ use crate::problem::ContactState;
 use crate::search::{BigCount, CombinedState, GroupState, SolutionProduct};
 
 /// The sort of a combination of the groups' states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Sort {
+    #[default]
     Point,
     Gap,
     Continuum,
@@ -82,31 +83,8 @@ pub(super) fn list(
     if wanted > 0 {
         // Those of this sort come first, so that none has to be found among many others.
         let mut product = product.clone();
-        restrict(&mut product, sort);
+        product.restrict(sort, &|state| state.is_maximal().then(|| Sort::of_part(state)));
         let states = product.states().filter(|state| Sort::of(state) == sort);
         states.take(wanted).for_each(|state| take(&state));
     }
-}
-
-/// Drops what is beyond a sort, or part of a larger continuum, and returns the greatest sort of the remaining
-/// combinations; `None` if there are no combinations.
-fn restrict(product: &mut SolutionProduct, most: Sort) -> Option<Sort> {
-    let mut greatest = Some(Sort::Point);
-    for factor in &mut product.factors {
-        let mut sorted = Vec::new();
-        for mut alternative in std::mem::take(&mut factor.alternatives) {
-            let own = Sort::of_part(&alternative.state);
-            if own <= most
-                && alternative.state.is_maximal()
-                && let Some(dependents) = restrict(&mut alternative.dependents, most)
-            {
-                sorted.push((own.max(dependents), alternative));
-            }
-        }
-        sorted.sort_by_key(|(sort, _)| std::cmp::Reverse(*sort));
-        let first = sorted.first().map(|(sort, _)| *sort);
-        greatest = greatest.zip(first).map(|(one, other)| one.max(other));
-        factor.alternatives = sorted.into_iter().map(|(_, alternative)| alternative).collect();
-    }
-    greatest
 }

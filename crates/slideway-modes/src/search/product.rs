@@ -139,9 +139,10 @@ impl GroupState {
 }
 
 /// The kind of a state, ordered by how much must be said about it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum StateKind {
     /// Every contact is pressed on a side, or about to change it.
+    #[default]
     Solution,
     /// Some contact rests in its gap.
     Gap,
@@ -175,27 +176,30 @@ impl SolutionProduct {
     #[must_use]
     pub fn up_to(&self, kind: StateKind) -> Self {
         let mut product = self.clone();
-        product.restrict(kind);
+        product.restrict(kind, &|state| Some(state.kind()));
         product
     }
 
-    /// Drops what is beyond a kind, and returns the last kind of the remaining combinations; `None` if there
-    /// are no combinations.
-    fn restrict(&mut self, most: StateKind) -> Option<StateKind> {
-        let mut last = Some(StateKind::Solution);
+    /// Drops what is beyond a sort or has none, puts what is of the last sorts first, and returns the last sort of the
+    /// remaining combinations; `None` if there are no combinations. `sort` is that of a state of a group.
+    pub(crate) fn restrict<S: Copy + Ord + Default>(
+        &mut self,
+        most: S,
+        sort: &impl Fn(&GroupState) -> Option<S>,
+    ) -> Option<S> {
+        let mut last = Some(S::default());
         for factor in &mut self.factors {
             let mut sorted = Vec::new();
             for mut alternative in std::mem::take(&mut factor.alternatives) {
-                let own = alternative.state.kind();
-                if own <= most
-                    && let Some(dependents) = alternative.dependents.restrict(most)
+                if let Some(own) = sort(&alternative.state).filter(|own| *own <= most)
+                    && let Some(dependents) = alternative.dependents.restrict(most, sort)
                 {
                     sorted.push((own.max(dependents), alternative));
                 }
             }
-            // The order within one kind is kept.
-            sorted.sort_by_key(|(kind, _)| std::cmp::Reverse(*kind));
-            let first = sorted.first().map(|(kind, _)| *kind);
+            // The order within one sort is kept.
+            sorted.sort_by_key(|(sort, _)| std::cmp::Reverse(*sort));
+            let first = sorted.first().map(|(sort, _)| *sort);
             last = last.zip(first).map(|(one, other)| one.max(other));
             factor.alternatives = sorted.into_iter().map(|(_, alternative)| alternative).collect();
         }

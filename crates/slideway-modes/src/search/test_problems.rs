@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::states::StateSet;
 use crate::certificate::{Decision, ExactSet, decide};
-use crate::problem::{ContactState, ModeProblem, Side};
+use crate::problem::{ContactState, ModeProblem, Side, patterns};
 
 /// Numbers from a linear congruential generator (Knuth's MMIX constants).
 pub(super) struct Numbers {
@@ -55,17 +55,8 @@ impl Numbers {
 
 /// Every pattern that has a solution, with the midpoints of its bounds.
 pub(super) fn admitted(problem: &ModeProblem) -> Vec<(Vec<ContactState>, Vec<f64>)> {
-    let mut patterns: Vec<Vec<ContactState>> = vec![Vec::new()];
-    for contact in 0..problem.contacts() {
-        let states: &[ContactState] =
-            if problem.has_jump(contact) { &ContactState::ALL } else { &ContactState::PRESSED };
-        let extended = patterns
-            .iter()
-            .flat_map(|pattern| states.iter().map(|&state| pattern.iter().copied().chain([state]).collect()));
-        patterns = extended.collect();
-    }
     let mut admitted = Vec::new();
-    for pattern in patterns {
+    for pattern in patterns(&problem.jumps_of_contacts(), u64::MAX).expect("no limit") {
         match decide(problem, &pattern).decision {
             Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. } => {
                 admitted.push((pattern, unknowns.iter().map(|value| value.middle()).collect()));

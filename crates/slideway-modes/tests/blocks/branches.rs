@@ -2,10 +2,10 @@
 
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use slideway_modes::blocks::{BlockProblem, search};
-use slideway_modes::branches::{BranchOptions, Branches, Instance, NoInstance, Outputs, branches, end_of};
+use slideway_modes::branches::{BranchOptions, Branches, Instance, NoInstance, branches, end_of};
 use slideway_modes::existence::EndCause;
 use slideway_modes::progress::undisturbed;
-use slideway_modes::{BySide, Proof, SearchOptions};
+use slideway_modes::{BlockNumbers, BySide, Proof, SearchOptions};
 use std::ops::ControlFlow;
 
 use crate::support::{Numbers, Plain};
@@ -13,7 +13,7 @@ use crate::support::{Numbers, Plain};
 fn instance(response: BySide<DMatrix<f64>>, load: DVector<f64>) -> Instance {
     let contacts = 2 * response.positive.ncols() - load.len();
     let jumps = BySide::same(DMatrix::zeros(load.len(), contacts));
-    let outputs = Outputs::none(contacts, response.positive.ncols());
+    let outputs = BlockNumbers::none(contacts, response.positive.ncols());
     let problem = BlockProblem::new(response, jumps, load).unwrap();
     Instance { problem, outputs, bounds: Vec::new(), senses: Vec::new() }
 }

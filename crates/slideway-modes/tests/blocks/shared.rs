@@ -52,6 +52,7 @@ fn as_contacts(friction: &BySide<DMatrix<f64>>, load: &DVector<f64>, shared: &Sh
         frictionless: load.clone(),
         shared: Some(shared.clone()),
         one_sided: vec![],
+        turning: vec![],
     })
     .unwrap()
 }

@@ -221,6 +221,7 @@ fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
         frictionless: vector(1.0),
         shared: None,
         one_sided: vec![],
+        turning: vec![],
     };
     let problem = IntervalModeProblem::from_influence(&influence).expect("it fits");
     let rounded = ModeProblem::from_influence(&InfluenceCoefficients {
@@ -232,6 +233,7 @@ fn bounds_of_influence_coefficients_hold_the_rounded_problem() {
         frictionless: DVector::from_element(2, 1.0),
         shared: None,
         one_sided: vec![],
+        turning: vec![],
     })
     .expect("it fits");
     for pattern in patterns(2, &STATES[..2]) {

@@ -172,6 +172,7 @@ fn klepp_with_exact_numbers(mu_1: f64, velocity: f64) -> ModeProblem {
         frictionless: dvector![0.5, 0.25, -0.25],
         shared: None,
         one_sided: vec![],
+        turning: vec![],
     })
     .expect("finite numbers")
 }

@@ -33,6 +33,7 @@ pub(crate) fn example(parameters: &Parameters, mu_1: f64, preload: [f64; 3], vel
         frictionless: dvector![0.5, 0.25, -0.25],
         shared: None,
         one_sided: vec![],
+        turning: vec![],
     })
     .expect("the example's data are finite and of one size")
 }

@@ -8,7 +8,7 @@ use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration,
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::{self, JointKind, Model, SliderKind};
 use crate::modes::{BySide, InfluenceCoefficients, Side};
-use crate::problem::{ProblemCoefficients, TurningHinge, friction_of_contacts};
+use crate::problem::{TurningHinge, friction_of_contacts, preload_columns};
 use crate::progress::Work;
 use crate::sharing::{NO_STRESS, shared_load};
 use nalgebra::{DMatrix, DVector};
@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-12;
 pub(super) struct RubbingHinge {
     /// The column of the answers to a unit couple on its first body among all unknowns.
     column: usize,
-    /// The couple on its first body by its force: -r sgn(omega) (theory of hinges, section 1).
+    /// The couple on its first body by a unit of its force.
     leverage: Interval,
     /// The angular velocity of its first body against the second (rad/s).
     spin: Interval,
@@ -40,40 +40,34 @@ pub(super) struct Coefficients<'a> {
 }
 
 impl Coefficients<'_> {
-    /// Returns the coefficients of the problem of the contacts and of these hinges, and the influence
-    /// coefficients of the contacts in its rows with all jumps.
+    /// Returns the coefficients of the problem of the contacts and of these hinges, and those in the same rows with all
+    /// jumps.
     pub(super) fn problem(
         &self,
         unknowns: &DMatrix<Interval>,
         hinges: &[TurningHinge],
         rubbing: &[RubbingHinge],
-    ) -> Result<(ProblemCoefficients<Interval>, InfluenceCoefficients<Interval>), NotEnclosed> {
+    ) -> Result<[InfluenceCoefficients<Interval>; 2], NotEnclosed> {
         let layout = &self.equations.layout;
         let normals = (0..self.mechanism.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
         let forces = hinges.iter().flat_map(|hinge| [0, 1].map(|axis| Reaction::Hinge(hinge.joint, axis)));
         let rows: Option<Vec<usize>> = normals.chain(forces).map(|force| layout.reaction(force)).collect();
         let rows = rows.ok_or(NotEnclosed::Equations)?;
-        let influence = self.influence(unknowns, &rows)?;
-        let circle = |hinge: &TurningHinge| (*hinge, self.mechanism.friction_circles[hinge.circle]);
-        let coefficients = ProblemCoefficients {
-            contacts: self.without_shared_jumps(&influence),
-            couples: DMatrix::from_fn(rows.len(), rubbing.len(), |row, hinge| {
-                unknowns[(rows[row], rubbing[hinge].column)]
-            }),
-            hinges: hinges.iter().map(circle).collect(),
-        };
-        Ok((coefficients, influence))
+        let influence = self.influence(unknowns, &rows, rubbing)?;
+        Ok([self.without_shared_jumps(&influence), influence])
     }
 
-    /// Bounds of the influence coefficients of the contacts in these rows.
+    /// Bounds of the influence coefficients of the contacts and hinges in these rows.
     fn influence(
         &self,
         unknowns: &DMatrix<Interval>,
         rows: &[usize],
+        rubbing: &[RubbingHinge],
     ) -> Result<InfluenceCoefficients<Interval>, NotEnclosed> {
         let contacts = self.mechanism.contacts.len();
         let scale = self.greatest_force(&|row| unknowns[(row, 0)]);
         let self_stress = self.self_stresses(unknowns, rows);
+        let answers = |column: usize| DVector::from_fn(rows.len(), |row, _| unknowns[(rows[row], column)]);
         let positive = DMatrix::from_fn(rows.len(), contacts, |row, k| {
             self.without_rounding(unknowns[(rows[row], 1 + k)], 1.0)
         });
@@ -81,7 +75,7 @@ impl Coefficients<'_> {
         let eta = BySide { positive, negative };
         let [mu, preload] = friction_of_contacts(self.mechanism, &|_| true);
         Ok(InfluenceCoefficients {
-            eta_preload: self.preload_columns(&eta),
+            eta_preload: preload_columns(self.mechanism, &eta),
             eta,
             mu,
             preload,
@@ -93,6 +87,7 @@ impl Coefficients<'_> {
             one_sided: self.openings(|at| {
                 DVector::from_fn(rows.len(), |row, _| self.without_rounding(unknowns[(rows[row], at)], 1.0))
             }),
+            turning: rubbing.iter().map(|hinge| (answers(hinge.column), hinge.leverage)).collect(),
         })
     }
 
@@ -292,28 +287,13 @@ impl Coefficients<'_> {
     /// The normal forces by which the contacts of a block slider take up the couple between both faces of a
     /// contact, -h/o at the front and h/o at the rear; nothing for other sliders.
     fn taken_up_between_faces(&self, contact: usize) -> Vec<(usize, Interval)> {
-        let Some(slider) = self.slider(contact).filter(|slider| has_two_faces(slider)) else {
-            return Vec::new();
-        };
+        let has_two_faces =
+            |slider: &&Slider<Interval>| slider.kind == SliderKind::Block && slider.height != Interval::ZERO;
+        let Some(slider) = self.slider(contact).filter(has_two_faces) else { return Vec::new() };
         let [front, rear, ..] = slider.contacts[..] else { return Vec::new() };
         let overlap = self.configuration.overlap(self.mechanism, slider);
         let force = slider.height / overlap.unwrap_or(Interval::REAL_LINE);
         vec![(front.index(), -force), (rear.index(), force)]
-    }
-
-    /// The columns of the preload's friction: at the pressed face, or in the middle between both.
-    fn preload_columns(&self, eta: &BySide<DMatrix<Interval>>) -> BySide<DMatrix<Interval>> {
-        let mut preload = eta.clone();
-        for (k, contact) in self.mechanism.contacts.iter().enumerate() {
-            if !self.slider(k).is_some_and(has_two_faces) {
-                continue;
-            }
-            for at in (0..eta.positive.nrows()).map(|row| (row, k)) {
-                let faces = contact.preload_line.of_faces([eta.positive[at], eta.negative[at]]);
-                [preload.positive[at], preload.negative[at]] = faces;
-            }
-        }
-        preload
     }
 
     /// The signs s_k of the sliding velocities; where there is no friction one that is not known is 0.
@@ -399,9 +379,4 @@ impl Coefficients<'_> {
     fn slider(&self, contact: usize) -> Option<&Slider<Interval>> {
         self.mechanism.slider(self.mechanism.contacts[contact].joint)
     }
-}
-
-/// Whether it makes a difference at which face friction acts.
-fn has_two_faces(slider: &Slider<Interval>) -> bool {
-    slider.kind == SliderKind::Block && slider.height != Interval::ZERO
 }

@@ -41,12 +41,12 @@ use crate::interval::Interval;
 use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
-use crate::modes::OpenContacts;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::certificate::{
     IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution_while,
 };
-use crate::problem::{ProblemCoefficients, TurningHinge};
+use crate::modes::{InfluenceCoefficients, OpenContacts};
+use crate::problem::TurningHinge;
 use crate::progress::{Callback, Progress, Work, undisturbed, watched};
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
@@ -152,7 +152,7 @@ pub struct Enclosed<P> {
     /// Which contacts may be open: others between their faces are in preload gaps.
     pub(crate) open: OpenContacts,
     /// The coefficients of its numbers.
-    pub(crate) coefficients: ProblemCoefficients<Interval>,
+    pub(crate) coefficients: InfluenceCoefficients<Interval>,
 }
 
 /// The mode problem of contacts, within bounds.
@@ -276,7 +276,7 @@ pub(crate) fn enclosure_within(
     work: Work<'_>,
 ) -> Result<EnclosedModeProblem, NotEnclosed> {
     enclosed(model, uncertain, state, &[], work, |coefficients| {
-        Ok(IntervalModeProblem::from_influence(&coefficients.contacts)?)
+        Ok(IntervalModeProblem::from_influence(coefficients)?)
     })
 }
 
@@ -304,7 +304,7 @@ fn enclosed<P>(
     (mechanism, configuration): (&Mechanism, &Configuration),
     hinges: &[TurningHinge],
     work: Work<'_>,
-    make: impl FnOnce(&ProblemCoefficients<Interval>) -> Result<P, NotEnclosed>,
+    make: impl FnOnce(&InfluenceCoefficients<Interval>) -> Result<P, NotEnclosed>,
 ) -> Result<Enclosed<P>, NotEnclosed> {
     let given = uncertain.of(model)?;
     let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
@@ -321,7 +321,7 @@ fn enclosed<P>(
     };
     let rubbing = within.rubbing(hinges)?;
     let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
-    let (coefficients, influence) = within.problem(&unknowns, hinges, &rubbing)?;
+    let [coefficients, influence] = within.problem(&unknowns, hinges, &rubbing)?;
     Ok(Enclosed {
         problem: make(&coefficients)?,
         outputs: within.outputs(influence, &unknowns, &rubbing),

@@ -12,8 +12,7 @@ use crate::modes::existence::{
     CountInterval, EndCause, Existence, ExistenceOptions, ModeEnd, ModeInterval, ModeProblemLine, counts,
     is_same_end, nothing_is_left,
 };
-use crate::modes::{ContactState, ModeProblem};
-use crate::problem::ProblemCoefficients;
+use crate::modes::{ContactState, InfluenceCoefficients, ModeProblem};
 use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, Unlocking};
 
 /// The most patterns for which margins are computed.
@@ -92,13 +91,13 @@ pub(super) fn add(
 /// determinants of all of these parts count, each with one face of a press fit at most.
 fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProblem) -> Option<f64> {
     let mut coefficients = enclosed.coefficients.clone();
-    let Some(shared) = &mut coefficients.contacts.shared else {
+    let Some(shared) = &mut coefficients.shared else {
         let jumps = all.line.has_jump.contains(&true);
         return (!jumps).then(|| first_locking(&all.line, &coefficients)).flatten();
     };
     shared.clearance.fill(Interval::ONE);
     shared.press_fits.clear();
-    let mut determinate = data.coefficients(&[], &[]).ok()?.contacts;
+    let mut determinate = data.coefficients(&[], &[]).ok()?;
     determinate.shared = None;
     if ModeProblem::from_influence(&determinate).ok()?.jumps_of_contacts().contains(&true) {
         return None;
@@ -113,10 +112,10 @@ fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProble
 }
 
 /// The factor at which a determinant along a line is proven to change its sign, with bounds of the same numbers.
-fn first_locking(line: &ModeProblemLine, enclosed: &ProblemCoefficients<Interval>) -> Option<f64> {
+fn first_locking(line: &ModeProblemLine, enclosed: &InfluenceCoefficients<Interval>) -> Option<f64> {
     let sign_at = |factor: f64, pattern: &[ContactState]| {
         let rougher = enclosed.rougher(Interval::point(factor));
-        proven_determinant_sign(&IntervalModeProblem::from_influence(&rougher.contacts).ok()?, pattern)
+        proven_determinant_sign(&IntervalModeProblem::from_influence(&rougher).ok()?, pattern)
     };
     line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)
 }

@@ -13,9 +13,7 @@ use crate::mechanism::Mechanism;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
-use crate::problem::{
-    NO_INFLUENCE, ProblemCoefficients, TurningHinge, friction_of_contacts, preload_columns, without_rounding,
-};
+use crate::problem::{NO_INFLUENCE, TurningHinge, friction_of_contacts, preload_columns, without_rounding};
 use crate::progress::Progress;
 use crate::sharing::{check_assembly, shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
@@ -120,11 +118,11 @@ pub fn mode_problem(
     velocity_signs: &DVector<f64>,
 ) -> Result<ModeProblem, Faults> {
     let data = ProblemData { mechanism, influence, velocity_signs };
-    let contacts = data.coefficients(&[], &[])?.contacts;
-    if let Some(shared) = &contacts.shared {
+    let coefficients = data.coefficients(&[], &[])?;
+    if let Some(shared) = &coefficients.shared {
         check_assembly(mechanism, shared)?;
     }
-    ModeProblem::from_influence(&contacts).map_err(|_| overflow())
+    ModeProblem::from_influence(&coefficients).map_err(|_| overflow())
 }
 
 /// The stages from which a problem is made.
@@ -148,7 +146,7 @@ impl ProblemData<'_> {
         self,
         hinges: &[TurningHinge],
         outputs: &[ConstraintRow],
-    ) -> Result<ProblemCoefficients, Faults> {
+    ) -> Result<InfluenceCoefficients, Faults> {
         let Self { mechanism, influence, velocity_signs } = self;
         let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
         let own = influence.block_rows(&joints);
@@ -174,26 +172,25 @@ impl ProblemData<'_> {
             let given = row.checked_sub(own.len()).map_or(0.0, |output| outputs[output].right_hand_side);
             entry(row, &influence.frictionless) - given
         };
-        Ok(ProblemCoefficients {
-            contacts: InfluenceCoefficients {
-                eta_preload: preload_columns(mechanism, &eta),
-                eta,
-                mu,
-                preload,
-                velocity_signs: velocity_signs.clone(),
-                frictionless: DVector::from_fn(rows, |row, _| without_friction(row)),
-                shared: shared_load(mechanism, self_stress)?,
-                one_sided: influence.one_sided(|opening| {
-                    DVector::from_fn(rows, |row, _| {
-                        let part = entry(row, opening);
-                        if row < own.len() && part.abs() <= NO_INFLUENCE { 0.0 } else { part }
-                    })
-                }),
-            },
-            couples: DMatrix::from_fn(rows, hinges.len(), |row, hinge| {
-                entry(row, &influence.couples[hinges[hinge].circle])
+        let turning = |hinge: &TurningHinge| {
+            let answers = DVector::from_fn(rows, |row, _| entry(row, &influence.couples[hinge.circle]));
+            (answers, hinge.leverage(&mechanism.friction_circles[hinge.circle]))
+        };
+        Ok(InfluenceCoefficients {
+            eta_preload: preload_columns(mechanism, &eta),
+            eta,
+            mu,
+            preload,
+            velocity_signs: velocity_signs.clone(),
+            frictionless: DVector::from_fn(rows, |row, _| without_friction(row)),
+            shared: shared_load(mechanism, self_stress)?,
+            one_sided: influence.one_sided(|opening| {
+                DVector::from_fn(rows, |row, _| {
+                    let part = entry(row, opening);
+                    if row < own.len() && part.abs() <= NO_INFLUENCE { 0.0 } else { part }
+                })
             }),
-            hinges: hinges.iter().map(|hinge| (*hinge, mechanism.friction_circles[hinge.circle])).collect(),
+            turning: hinges.iter().map(turning).collect(),
         })
     }
 
@@ -224,7 +221,7 @@ impl ProblemData<'_> {
     /// A fault if a number is beyond the range of floating point, or nothing says how redundant guides share
     /// their load.
     pub(crate) fn problem(self) -> Result<ModeProblem, Faults> {
-        ModeProblem::from_influence(&self.coefficients(&[], &[])?.contacts).map_err(|_| overflow())
+        ModeProblem::from_influence(&self.coefficients(&[], &[])?).map_err(|_| overflow())
     }
 
     /// The block mode problem of the contacts and these hinges.

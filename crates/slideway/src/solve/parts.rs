@@ -52,10 +52,10 @@ impl Parts {
             rows.into_iter().map(ConstraintRow::unknown).chain(others).collect();
         let coefficients = data.coefficients(&[], &outputs)?;
         let mut parts = Self {
-            columns: coefficients.contacts.columns(),
-            frictionless: coefficients.rougher(0.0).contacts.columns(),
-            jumps: coefficients.contacts.jumps(),
-            right_hand_side: coefficients.contacts.right_hand_side(),
+            columns: coefficients.columns(),
+            frictionless: coefficients.rougher(0.0).columns(),
+            jumps: coefficients.jumps(),
+            right_hand_side: coefficients.right_hand_side(),
             bounds,
             has_jump: Vec::new(),
             free_faces: Vec::new(),

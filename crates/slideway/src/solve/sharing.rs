@@ -41,7 +41,7 @@ pub(crate) fn load_sharing(
 /// The contact modes for other ratios of the stiffnesses of the contacts that share a load; none if they are not all
 /// found.
 fn stiffness_ratios(stages: &Stages, shared: &SharedLoad) -> Result<Option<StiffnessRatios>, Faults> {
-    let contacts = stages.data().coefficients(&[], &[])?.contacts;
+    let contacts = stages.data().coefficients(&[], &[])?;
     let patterns = |shared: &SharedLoad| {
         let contacts = InfluenceCoefficients { shared: Some(shared.clone()), ..contacts.clone() };
         patterns(&contacts, &stages.mechanism.excess.open)

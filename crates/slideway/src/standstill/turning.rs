@@ -9,9 +9,7 @@ use crate::kinetics::{Reaction, equilibration};
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
 use crate::modes::{ContactState, InfluenceCoefficients, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase};
-use crate::problem::{
-    ProblemCoefficients, TurningHinge, friction_of_contacts, preload_columns, without_rounding,
-};
+use crate::problem::{TurningHinge, friction_of_contacts, preload_columns, without_rounding};
 use crate::progress::Callback;
 use nalgebra::{DMatrix, DVector, RowDVector};
 
@@ -172,21 +170,21 @@ impl<'h, 's> Blocks<'h, 's> {
         let [mu, preload] = friction_of_contacts(&setup.mechanism, &|k| self.sign(k) != 0.0);
         let load = self.held.answers(std::slice::from_ref(&self.held.load))?;
         let circles = &setup.mechanism.friction_circles;
-        let coefficients = ProblemCoefficients {
-            contacts: InfluenceCoefficients {
-                eta_preload: preload_columns(&setup.mechanism, &eta),
-                eta,
-                mu,
-                preload,
-                velocity_signs: DVector::from_fn(contacts.len(), |k, _| self.sign(k)),
-                frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
-                shared: None,
-                one_sided: Vec::new(),
-            },
-            couples: answers(
-                self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect(),
-            )?,
-            hinges: self.hinges.iter().map(|hinge| (*hinge, circles[hinge.circle])).collect(),
+        let couples =
+            answers(self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect())?;
+        let turning = self.hinges.iter().zip(couples.column_iter());
+        let coefficients = InfluenceCoefficients {
+            eta_preload: preload_columns(&setup.mechanism, &eta),
+            eta,
+            mu,
+            preload,
+            velocity_signs: DVector::from_fn(contacts.len(), |k, _| self.sign(k)),
+            frictionless: DVector::from_fn(rows.len(), |row, _| load[0][rows[row]]),
+            shared: None,
+            one_sided: Vec::new(),
+            turning: turning
+                .map(|(hinge, answers)| (answers.into_owned(), hinge.leverage(&circles[hinge.circle])))
+                .collect(),
         };
         coefficients.numbers().problem().ok()
     }

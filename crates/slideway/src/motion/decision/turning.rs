@@ -12,9 +12,8 @@ use super::instant::Instant;
 use super::outputs::Group;
 use super::system::Question;
 use crate::modes::blocks::{self, BlockProblem, BlockSolution};
-use crate::modes::{BySide, ContactState, SearchOptions, Side};
+use crate::modes::{BlockNumbers, BySide, ContactState, SearchOptions, Side};
 use crate::pattern::{ContactPhase, JointPhase, Phase, direction};
-use crate::problem::BlockNumbers;
 use crate::progress::Work;
 use nalgebra::{DMatrix, DVector};
 

@@ -8,10 +8,10 @@ use super::spin::{does_not_turn, senses};
 use super::states::hinge_states;
 use crate::fault::Faults;
 use crate::kinetics::ConstraintRow;
-use crate::modes::ContactState;
-use crate::modes::branches::{BranchForces, Instance, Outputs};
+use crate::modes::branches::{BranchForces, Instance};
 use crate::modes::existence::OutputBound;
-use crate::problem::{BlockNumbers, ProblemCoefficients, TurningHinge};
+use crate::modes::{ContactState, InfluenceCoefficients};
+use crate::problem::TurningHinge;
 use nalgebra::DVector;
 
 /// The hinges of these friction circles, with the sense in which each turns; one that has no friction here may stand.
@@ -46,7 +46,7 @@ pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result
 /// The block problem of a mechanism, whose coefficients of friction may be multiplied by a factor.
 pub(crate) struct GrowingFriction {
     /// With the couples of guided sliders as outputs.
-    coefficients: ProblemCoefficients,
+    coefficients: InfluenceCoefficients,
     bounds: Vec<OutputBound>,
     senses: Vec<i8>,
 }
@@ -74,10 +74,9 @@ impl GrowingFriction {
         if !numbers.are_finite() {
             return Err(overflow());
         }
-        let BlockNumbers { response, jumps, load } = numbers.rows(unknowns..numbers.load.len());
         Ok(Instance {
             problem: numbers.rows(0..unknowns).problem().map_err(|_| overflow())?,
-            outputs: Outputs { response, jumps, load },
+            outputs: numbers.rows(unknowns..numbers.load.len()),
             bounds: self.bounds.clone(),
             senses: self.senses.clone(),
         })

@@ -9,9 +9,9 @@ use super::polyhedron::{Extremes, Polyhedron};
 use crate::fault::Faults;
 use crate::kinetics::ConstraintRow;
 use crate::law::COUPLE_TOLERANCE;
-use crate::modes::Side;
 use crate::modes::existence::OutputBound;
-use crate::problem::{BlockNumbers, NO_INFLUENCE, TurningHinge};
+use crate::modes::{BlockNumbers, Side};
+use crate::problem::{NO_INFLUENCE, TurningHinge};
 use nalgebra::{DMatrix, DVector};
 
 /// Modes whose determinant is below this are singular within rounding.
