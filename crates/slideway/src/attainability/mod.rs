@@ -15,20 +15,22 @@
 //!
 //! Since `det(C S)` is the oriented determinant `p`, the number of negative eigenvalues is odd if and only if
 //! `p < 0`, whatever the stiffness.
+//!
+//! A hinge with friction gives way in both directions, `R = -K gap`. With `x = (N, R)` and the directions `D_j = x_j^T /
+//! |x_j|` of the hinges, and `sigma_k` of the contacts, `I - H D` stands in the place of `C S`.
 
 mod fate;
-mod hinges;
 mod inertia;
 mod ratios;
 mod shared;
 mod spectrum;
 
+use crate::ids::JointId;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Effort, Mechanism};
+use crate::mechanism::{Contact, Effort, Mechanism};
 use crate::modes::{ContactState, ModeProblem};
 use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 use fate::{End, FastMotion, Rest};
-pub(crate) use hinges::ElasticHinges;
 use inertia::Inertia;
 use nalgebra::{DMatrix, DVector};
 pub(crate) use ratios::ratios;
@@ -56,162 +58,116 @@ pub struct Candidate {
     pub deflections: Vec<Option<f64>>,
 }
 
-/// A mechanism in its state whose guides are slightly elastic.
+/// A mechanism in its state whose guides and hinges with friction are slightly elastic.
 #[derive(Debug, Clone)]
-pub struct ElasticGuides<'p> {
-    problem: &'p ModeProblem,
-    /// None if drives leave no definite motion.
-    inertia: Option<Inertia>,
-    /// Of every contact (N/m); 1 if the model does not give all of them.
+pub(crate) struct ElasticJoints {
+    /// The inertia of their gaps, or what is said without it.
+    inertia: Result<Inertia, (Verdict, String)>,
+    /// Of every contact (N/m), 1 if the model does not give all of them; with friction in hinges in units of the mean, then
+    /// of both components of these hinges.
     stiffness: Vec<f64>,
     given: bool,
+    has_hinges: bool,
     /// Of redundant guides: how their gaps hang together.
     shared: Option<SharedGaps>,
-    /// Why the fast motion is not stable, if it is not without friction either, which drives may cause.
-    reversed: Option<String>,
 }
 
-impl<'p> ElasticGuides<'p> {
-    /// The elastic guides of a mechanism with these equations and this mode problem. Stiffnesses are those of
-    /// the model if it gives them for every contact, else 1 N/m; of redundant guides they count where all
-    /// that share a load have one, the others having the mean of these.
-    pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
+impl ElasticJoints {
+    /// Those of a mechanism with these equations, and with friction in these hinges. Stiffnesses are those of the model
+    /// if it gives them for every contact, else 1 N/m; of redundant guides they count where all that share a load have
+    /// one, the others having the mean of these. With friction in hinges all joints are equally stiff, but for redundant
+    /// guides.
+    pub(crate) fn new(mechanism: &Mechanism, equations: &KineticEquations, hinges: &[JointId]) -> Self {
         let contacts = &mechanism.contacts;
-        let shared = SharedGaps::of(mechanism, equations, &[]);
+        let size = contacts.len() + 2 * hinges.len();
+        let shared = SharedGaps::of(mechanism, equations, hinges);
         let known: Vec<f64> = contacts.iter().filter_map(|contact| contact.stiffness).collect();
-        let given = known.len() == contacts.len() && !contacts.is_empty();
+        let has_hinges = !hinges.is_empty();
+        let given = !has_hinges && known.len() == contacts.len() && !contacts.is_empty();
         let instead = if shared.is_some() && !known.is_empty() { mean(&known) } else { 1.0 };
-        let stiffness: Vec<f64> = if given || shared.is_some() {
-            contacts.iter().map(|contact| contact.stiffness.unwrap_or(instead)).collect()
-        } else {
-            vec![1.0; contacts.len()]
+        let unit = if has_hinges { instead } else { 1.0 };
+        let of_contact = |contact: &Contact| {
+            let own = contact.stiffness.filter(|_| given || shared.is_some());
+            own.unwrap_or(instead) / unit
         };
-        let few = contacts.len() <= MOST_CONTACTS;
-        let inertia = if few { Inertia::new(equations, &[], mechanism.size) } else { None };
-        let stable = inertia.as_ref().is_some_and(|inertia| {
+        let mut stiffness: Vec<f64> = contacts.iter().map(of_contact).collect();
+        stiffness.resize(size, 1.0);
+        let inertia = if size > MOST_CONTACTS {
+            let what = if has_hinges { "components of normal and hinge forces" } else { "contacts" };
+            Err((Verdict::NotComputed, format!("more than {MOST_CONTACTS} {what}")))
+        } else {
             let frictionless = match &shared {
                 Some(shared) => shared.gaps.transpose(),
-                None => DMatrix::identity(contacts.len(), contacts.len()),
+                None => DMatrix::identity(size, size),
             };
-            let spectrum = Pencil::new(inertia, frictionless, shared.as_ref())
-                .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
-            spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
-        });
-        let reversed = (!stable).then(|| reversed(mechanism));
-        Self { problem, inertia, stiffness, given, shared, reversed }
-    }
-
-    /// The attainability of each of these solutions, which are all that the mechanism has and none of them on
-    /// the boundary between modes. Where one is unattainable, its two sides are followed to the others.
-    pub fn attainability(&self, candidates: &[Candidate]) -> Vec<Attainability> {
-        let mut all: Vec<_> = candidates.iter().map(|candidate| self.of(&candidate.states)).collect();
-        self.fates(candidates, &mut all);
-        all
-    }
-
-    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose
-    /// mode problem has it.
-    pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
-        self.shared.is_some().then(|| self.oriented_determinant(states))
-    }
-
-    /// The oriented determinant p of a mode, 1 without friction.
-    pub(crate) fn oriented_determinant(&self, states: &[ContactState]) -> f64 {
-        let states = self.closed(states);
-        self.oriented(&self.mode(&states), &states)
-    }
-
-    /// The states of contacts that a pattern of the mode problem stands for.
-    fn closed(&self, pattern: &[ContactState]) -> Vec<ContactState> {
-        self.shared.as_ref().map_or_else(|| pattern.to_vec(), |shared| shared.closed(pattern))
-    }
-
-    /// `C S`: of redundant guides the rows of the contacts that are not cut.
-    fn mode(&self, states: &[ContactState]) -> DMatrix<f64> {
-        let matrix = mode_matrix(self.problem, states);
-        match &self.shared {
-            Some(shared) => matrix.select_rows(&shared.kept),
-            None => matrix,
-        }
-    }
-
-    fn oriented(&self, mode: &DMatrix<f64>, states: &[ContactState]) -> f64 {
-        match &self.shared {
-            Some(shared) => shared.oriented(mode, states, &self.stiffness),
-            None => mode.determinant(),
-        }
-    }
-
-    /// Whether a verdict says something about this state: contacts of determinate guides that are between
-    /// their faces have no elastic law.
-    fn has_law(&self, states: &[ContactState]) -> bool {
-        self.shared.is_some() || !states.contains(&ContactState::Gap)
-    }
-
-    /// The verdict on the mode with these sides alone: neither how it depends on stiffnesses nor what the
-    /// solution separates is examined.
-    pub fn verdict_on(&self, states: &[ContactState]) -> Verdict {
-        if states.len() > MOST_CONTACTS || !self.has_law(states) {
-            return Verdict::NotComputed;
-        }
-        let (Some(inertia), None) = (&self.inertia, &self.reversed) else { return Verdict::Undecided };
-        let states = self.closed(states);
-        let mode = self.mode(&states);
-        let oriented = self.oriented(&mode, &states);
-        let spectrum = Pencil::new(inertia, mode, self.shared.as_ref())
-            .and_then(|pencil| pencil.spectrum(&self.stiffness, &equal_masses(inertia)));
-        spectrum.map_or(Verdict::NotComputed, |spectrum| {
-            let is_odd = spectrum.negative % 2 == 1;
-            let consistent = oriented != 0.0 && is_odd == (oriented < 0.0);
-            self.verdict(&spectrum, consistent).verdict
-        })
-    }
-
-    /// The attainability of the mode with these sides, without what an unattainable solution separates.
-    pub(crate) fn of(&self, states: &[ContactState]) -> Attainability {
-        if !self.has_law(states) {
-            return Attainability::without_eigenvalues(
-                Verdict::NotComputed,
-                "the preload acts between the faces",
-            );
-        }
-        if states.len() > MOST_CONTACTS {
-            let reason = format!("more than {MOST_CONTACTS} contacts");
-            return Attainability::without_eigenvalues(Verdict::NotComputed, &reason);
-        }
-        let (Some(inertia), None) = (&self.inertia, &self.reversed) else {
-            let reason = self.reversed.as_deref().unwrap_or_default();
-            return Attainability::without_eigenvalues(Verdict::Undecided, reason);
+            let is_stable = |inertia: &Inertia| {
+                let spectrum = Pencil::new(inertia, frictionless, shared.as_ref())
+                    .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
+                spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
+            };
+            let inertia = Inertia::new(equations, hinges, mechanism.size).filter(is_stable);
+            inertia.ok_or_else(|| (Verdict::Undecided, reversed(mechanism)))
         };
+        Self { inertia, stiffness, given, has_hinges, shared }
+    }
+
+    /// The attainability of a solution with this matrix `C S`, or `I - H D`, and these states of the contacts, without what
+    /// an unattainable one separates.
+    pub(crate) fn of(&self, mode: DMatrix<f64>, states: &[ContactState]) -> Attainability {
+        let (pencil, spectrum, mut attainability) = match self.examined(mode, states) {
+            Ok(examined) => examined,
+            Err(none) => return none,
+        };
+        let (inertia, is_odd) = (pencil.inertia(), spectrum.negative % 2 == 1);
+        attainability.massless_motions = inertia.massless_gaps();
+        if attainability.verdict == Verdict::Undecided {
+            return attainability;
+        }
+        let varies =
+            |other: Option<Spectrum>| other.is_some_and(|other| !other.stability.agrees(&spectrum.stability));
+        let mut stiffnesses = other_stiffnesses(&self.stiffness, self.shared.as_ref());
+        // An odd number of negative eigenvalues stays odd, but for redundant guides.
+        attainability.depends_on_stiffness = Some(
+            (!is_odd || self.shared.is_some())
+                && stiffnesses.any(|k| varies(pencil.spectrum(&k, &equal_masses(inertia)))),
+        );
+        if !self.has_hinges {
+            let vary = !is_odd && inertia.massless_gaps() >= 2;
+            let masses = if vary { ratios(inertia.vanishing_masses()) } else { Vec::new() };
+            attainability.depends_on_mass_ratios =
+                Some(masses.iter().any(|masses| varies(pencil.spectrum(&self.stiffness, masses))));
+        }
+        attainability
+    }
+
+    /// The fast motion of a mode, its eigenvalues, and the verdict by them alone.
+    ///
+    /// # Errors
+    /// The verdict if they are not computed.
+    fn examined(
+        &self,
+        mode: DMatrix<f64>,
+        states: &[ContactState],
+    ) -> Result<(Pencil<'_>, Spectrum, Attainability), Attainability> {
+        let none = |verdict: Verdict, reason: &str| Attainability::without_eigenvalues(verdict, reason);
+        // Contacts of determinate guides that are between their faces have no elastic law.
+        if self.shared.is_none() && states.contains(&ContactState::Gap) {
+            return Err(none(Verdict::NotComputed, "the preload acts between the faces"));
+        }
+        let inertia = self.inertia.as_ref().map_err(|(verdict, reason)| none(*verdict, reason))?;
         let states = self.closed(states);
-        let mode = self.mode(&states);
+        let mode = self.kept(mode, &states);
         let oriented = self.oriented(&mode, &states);
         let computed = Pencil::new(inertia, mode, self.shared.as_ref()).and_then(|pencil| {
             let spectrum = pencil.spectrum(&self.stiffness, &equal_masses(inertia))?;
             Some((pencil, spectrum))
         });
-        let Some((pencil, spectrum)) = computed else {
-            let reason = "its eigenvalues could not be computed";
-            return Attainability::without_eigenvalues(Verdict::NotComputed, reason);
-        };
+        let (pencil, spectrum) =
+            computed.ok_or_else(|| none(Verdict::NotComputed, "its eigenvalues could not be computed"))?;
         let is_odd = spectrum.negative % 2 == 1;
         let consistent = oriented != 0.0 && is_odd == (oriented < 0.0);
-        let mut attainability = self.verdict(&spectrum, consistent);
-        let varies =
-            |other: Option<Spectrum>| other.is_some_and(|other| !other.stability.agrees(&spectrum.stability));
-        if consistent && spectrum.stability != Stability::Unclear {
-            // An odd number of negative eigenvalues stays odd, but for redundant guides.
-            attainability.depends_on_stiffness = Some(
-                (!is_odd || self.shared.is_some())
-                    && self.stiffness_ratios().any(|k| varies(pencil.spectrum(&k, &equal_masses(inertia)))),
-            );
-            let masses =
-                if is_odd || inertia.massless_gaps() < 2 { Vec::new() } else { mass_ratios(inertia) };
-            attainability.depends_on_mass_ratios =
-                Some(masses.iter().any(|masses| varies(pencil.spectrum(&self.stiffness, masses))));
-        }
-        attainability.massless_motions = inertia.massless_gaps();
-        attainability
+        let verdict = self.verdict(&spectrum, consistent);
+        Ok((pencil, spectrum, verdict))
     }
 
     fn verdict(&self, spectrum: &Spectrum, consistent: bool) -> Attainability {
@@ -239,38 +195,104 @@ impl<'p> ElasticGuides<'p> {
         }
     }
 
-    fn stiffness_ratios(&self) -> impl Iterator<Item = Vec<f64>> {
-        other_stiffnesses(&self.stiffness, self.shared.as_ref())
+    /// The states of contacts that a pattern of the mode problem stands for.
+    fn closed(&self, pattern: &[ContactState]) -> Vec<ContactState> {
+        self.shared.as_ref().map_or_else(|| pattern.to_vec(), |shared| shared.closed(pattern))
+    }
+
+    /// `C S`, of redundant guides without the columns of open contacts and the rows of those that are cut.
+    fn kept(&self, mut mode: DMatrix<f64>, states: &[ContactState]) -> DMatrix<f64> {
+        let Some(shared) = &self.shared else { return mode };
+        for (contact, _) in states.iter().enumerate().filter(|(_, state)| state.side().is_none()) {
+            mode.column_mut(contact).fill(0.0);
+        }
+        mode.select_rows(&shared.kept)
+    }
+
+    /// The oriented determinant p, 1 without friction, from what is kept of `C S`.
+    fn oriented(&self, kept: &DMatrix<f64>, states: &[ContactState]) -> f64 {
+        match &self.shared {
+            Some(shared) => shared.oriented(kept, states, &self.stiffness),
+            None => kept.determinant(),
+        }
+    }
+}
+
+/// [`ElasticJoints`] of a mechanism without friction in hinges, with its mode problem.
+#[derive(Debug, Clone)]
+pub struct ElasticGuides<'p> {
+    problem: &'p ModeProblem,
+    joints: ElasticJoints,
+}
+
+impl<'p> ElasticGuides<'p> {
+    /// The elastic guides of a mechanism with these equations and this mode problem.
+    pub fn new(mechanism: &Mechanism, equations: &KineticEquations, problem: &'p ModeProblem) -> Self {
+        Self { problem, joints: ElasticJoints::new(mechanism, equations, &[]) }
+    }
+
+    /// The attainability of each of these solutions, which are all that the mechanism has and none of them on
+    /// the boundary between modes. Where one is unattainable, its two sides are followed to the others.
+    pub fn attainability(&self, candidates: &[Candidate]) -> Vec<Attainability> {
+        let mut all: Vec<_> = candidates.iter().map(|candidate| self.of(&candidate.states)).collect();
+        self.fates(candidates, &mut all);
+        all
+    }
+
+    /// The oriented determinant p of a mode of redundant guides, 1 without friction; none for others, whose
+    /// mode problem has it.
+    pub(crate) fn oriented_mean(&self, states: &[ContactState]) -> Option<f64> {
+        self.joints.shared.is_some().then(|| self.oriented_determinant(states))
+    }
+
+    /// The oriented determinant p of a mode, 1 without friction.
+    pub(crate) fn oriented_determinant(&self, states: &[ContactState]) -> f64 {
+        let states = self.joints.closed(states);
+        self.joints.oriented(&self.joints.kept(mode_matrix(self.problem, &states), &states), &states)
+    }
+
+    /// The verdict on the mode with these sides alone: neither how it depends on stiffnesses nor what the
+    /// solution separates is examined.
+    pub fn verdict_on(&self, states: &[ContactState]) -> Verdict {
+        let states = self.joints.closed(states);
+        let examined = self.joints.examined(mode_matrix(self.problem, &states), &states);
+        examined.map_or_else(|none| none.verdict, |(.., attainability)| attainability.verdict)
+    }
+
+    /// The attainability of the mode with these sides, without what an unattainable solution separates.
+    pub(crate) fn of(&self, states: &[ContactState]) -> Attainability {
+        let states = self.joints.closed(states);
+        self.joints.of(mode_matrix(self.problem, &states), &states)
     }
 
     /// What each unattainable solution separates.
     fn fates(&self, candidates: &[Candidate], all: &mut [Attainability]) {
-        let few = self.stiffness.len() <= MOST_CONTACTS_OF_FATES && candidates.len() <= MOST_SOLUTIONS;
-        let is_rigid = self.shared.as_ref().is_some_and(|shared| shared.rigid);
+        let ElasticJoints { inertia, stiffness, shared, .. } = &self.joints;
+        let few = stiffness.len() <= MOST_CONTACTS_OF_FATES && candidates.len() <= MOST_SOLUTIONS;
+        let is_rigid = shared.as_ref().is_some_and(|shared| shared.rigid);
         let none = all.iter().all(|one| one.verdict != Verdict::Unattainable);
-        let (Some(inertia), true) = (&self.inertia, few && !none && !is_rigid) else { return };
+        let (Ok(inertia), true) = (inertia, few && !none && !is_rigid) else { return };
         let Some(mobility) = inertia.inverse(VANISHING_SHARE) else { return };
         let stays = |one: &Attainability| matches!(one.verdict, Verdict::Attainable | Verdict::Flutter);
         let numbers: Vec<usize> = (0..all.len()).filter(|&index| stays(&all[index])).collect();
-        let closed: Vec<_> = candidates.iter().map(|candidate| self.closed(&candidate.states)).collect();
+        let closed: Vec<_> =
+            candidates.iter().map(|candidate| self.joints.closed(&candidate.states)).collect();
         let rest = |index: usize| {
             let Candidate { normal_force, deflections, .. } = &candidates[index];
             let states = &closed[index];
             // The law of a face of a press fit begins where it touches.
-            let interference = |k: usize| self.shared.as_ref().map_or(0.0, |shared| shared.interference[k]);
+            let interference = |k: usize| shared.as_ref().map_or(0.0, |shared| shared.interference[k]);
             let deflection = |k: usize| match deflections.get(k).copied().flatten() {
                 Some(deflection) => deflection - interference(k),
-                None => -normal_force[k] / self.stiffness[k],
+                None => -normal_force[k] / stiffness[k],
             };
             let kept = |shared: &SharedGaps| shared.kept.iter().map(|&k| deflection(k)).collect::<Vec<_>>();
-            let gap = self.shared.as_ref().map_or_else(|| (0..states.len()).map(deflection).collect(), kept);
+            let gap = shared.as_ref().map_or_else(|| (0..states.len()).map(deflection).collect(), kept);
             Rest { states, normal_force, gap: DVector::from_vec(gap) }
         };
         let targets: Vec<Rest<'_>> = numbers.iter().map(|&index| rest(index)).collect();
-        let Some(mut motion) = FastMotion::new(self.problem, mobility, &self.stiffness, self.shared.as_ref())
-        else {
-            return;
-        };
+        let motion = FastMotion::new(self.problem, mobility, stiffness, shared.as_ref());
+        let Some(mut motion) = motion else { return };
         for (index, one) in all.iter_mut().enumerate() {
             if one.verdict == Verdict::Unattainable {
                 let ends = motion.ends(&rest(index), &targets);
@@ -318,11 +340,6 @@ fn fate(end: End, numbers: &[usize]) -> Fate {
 
 fn equal_masses(inertia: &Inertia) -> Vec<f64> {
     vec![1.0; inertia.vanishing_masses()]
-}
-
-/// Ratios of the vanishing masses that are tried.
-fn mass_ratios(inertia: &Inertia) -> Vec<Vec<f64>> {
-    ratios(inertia.vanishing_masses())
 }
 
 /// C S = [c_k^sigma_k sigma_k]; the column of an open contact is zero.

@@ -117,6 +117,10 @@ impl<'i> Pencil<'i> {
         })
     }
 
+    pub(super) fn inertia(&self) -> &'i Inertia {
+        self.inertia
+    }
+
     /// `K^-1 (C S)^-1 left`, or for redundant guides `((C S)_kept K E)^-1 left`.
     fn compliance(&self, stiffness: &[f64]) -> Option<DMatrix<f64>> {
         match (&self.compliance, self.shared) {

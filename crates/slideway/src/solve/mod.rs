@@ -48,7 +48,7 @@ pub(crate) use between_faces::states_between_faces;
 pub use blocks::exact_block_problem;
 pub(crate) use blocks::{BlockState, LastSolution, block_states, check_hinges, never_turning};
 pub(crate) use blocks::{
-    block_instance, directions, factors_with_one_solution, locking_factor, turning_hinges, unknowns_of,
+    block_instance, factors_with_one_solution, locking_factor, turning_hinges, unknowns_of,
 };
 pub(crate) use friction::friction;
 pub use locking::{Locking, locking};

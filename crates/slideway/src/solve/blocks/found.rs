@@ -5,12 +5,12 @@ use super::super::attainability::not_computed;
 use super::super::state::{State, pattern, signs};
 use super::margins::Growth;
 use super::states::hinge_states;
-use crate::attainability::ElasticHinges;
+use crate::attainability::ElasticJoints;
 use crate::enclosure::NotEnclosed;
 use crate::ids::JointId;
 use crate::interval::{Interval, Real};
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
-use crate::modes::{Certificate, ContactState, Side};
+use crate::modes::{Certificate, ContactState};
 use crate::problem::TurningHinge;
 use crate::report::{Proof, SolveReport};
 use nalgebra::{DMatrix, DVector};
@@ -71,12 +71,12 @@ impl BlockAnswer<'_> {
     /// The report on all solutions, with their margins of friction if what grows is given.
     pub(super) fn report(&self, found: &BlocksFound<'_>, growth: Option<&Growth<'_>>) -> SolveReport {
         let joints: Vec<JointId> = self.hinges.iter().map(|hinge| hinge.joint).collect();
-        let elastic = ElasticHinges::new(self.answer.mechanism, self.answer.equations, &joints);
+        let elastic = ElasticJoints::new(self.answer.mechanism, self.answer.equations, &joints);
         let mut tipping = Tipped::default();
         let (mut solutions, mut gaps) = (Vec::new(), Vec::new());
         for solution in found.result.solutions.iter().take(found.most) {
-            let directions = directions(self.problem, &solution.states, &solution.reactions);
-            let oriented = self.oriented(&directions, solution);
+            let slopes = self.problem.slopes(&solution.states, &solution.reactions);
+            let oriented = self.oriented(&slopes, solution);
             let signs: Vec<i8> = (0..solution.states.len())
                 .map(|k| if solution.on_boundary.contains(&k) { 0 } else { signs(&solution.states)[k] })
                 .collect();
@@ -104,7 +104,7 @@ impl BlockAnswer<'_> {
                 kept.oriented_determinant = oriented;
             }
             kept.attainability = if solution.on_boundary.is_empty() && solution.unloaded.is_empty() {
-                elastic.of(directions, &solution.states)
+                elastic.of(slopes, &solution.states)
             } else {
                 not_computed("a contact is about to change side, or a hinge with friction carries nothing")
             };
@@ -129,49 +129,12 @@ impl BlockAnswer<'_> {
         }
     }
 
-    /// The determinant of `I - H D`; of guides that share a load relative to that of the same contacts without friction,
-    /// with the columns of open contacts in their places.
-    fn oriented(&self, directions: &DMatrix<f64>, solution: &BlockSolution) -> f64 {
-        let Some(frictionless) = self.frictionless else { return directions.determinant() };
-        let with_open = |mut matrix: DMatrix<f64>| {
-            for (k, _) in solution.states.iter().enumerate().filter(|(_, state)| state.side().is_none()) {
-                let [positive, negative] =
-                    Side::BOTH.map(|side| self.problem.jumps(side).centre().column(k).into_owned());
-                matrix.set_column(k, &(negative - positive));
-            }
-            matrix.determinant()
-        };
-        let without = self::directions(frictionless, &solution.states, &solution.reactions);
-        let [with, without] = [directions.clone(), without].map(with_open);
-        if without == 0.0 { 0.0 } else { with / without }
+    /// The determinant of the slopes; of guides that share a load relative to that of the same contacts without friction.
+    fn oriented(&self, slopes: &DMatrix<f64>, solution: &BlockSolution) -> f64 {
+        let Some(frictionless) = self.frictionless else { return slopes.determinant() };
+        let without = frictionless.slopes(&solution.states, &solution.reactions).determinant();
+        if without == 0.0 { 0.0 } else { slopes.determinant() / without }
     }
-}
-
-/// `I - H D`, with the directions `x_j / |x_j|` of the blocks on the diagonal of D (theory of hinges, section 4), in a
-/// solution with these states of the contacts and forces of the hinges.
-pub(crate) fn directions(
-    problem: &BlockProblem,
-    states: &[ContactState],
-    forces: &[[f64; 2]],
-) -> DMatrix<f64> {
-    let contacts = problem.contacts();
-    let rows = contacts + 2 * problem.hinges();
-    let response = |row: usize, column: usize, state: ContactState| match state.side() {
-        Some(side) => problem.response(side).centre()[(row, column)],
-        None => 0.0,
-    };
-    DMatrix::from_fn(rows, rows, |row, column| {
-        let product = match column.checked_sub(contacts) {
-            None => response(row, column, states[column]) * states[column].sign(),
-            Some(component) => {
-                let (hinge, axis) = (component / 2, component % 2);
-                let length = forces[hinge][0].hypot(forces[hinge][1]);
-                let direction = if length > 0.0 { forces[hinge][axis] / length } else { 0.0 };
-                response(row, contacts + hinge, ContactState::Positive) * direction
-            }
-        };
-        if row == column { 1.0 - product } else { -product }
-    })
 }
 
 /// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps, then of `|R_j|`.

@@ -28,7 +28,6 @@ use crate::modes::blocks::{self, BlockProblem};
 use crate::progress::{Callback, as_far_as_wanted};
 use crate::report::{MarginsMissing, SolveReport};
 use branches::GrowingFriction;
-pub(crate) use found::directions;
 use found::{BlockAnswer, BlocksFound};
 use margins::Growth;
 pub(crate) use margins::{factors_with_one_solution, locking_factor};
