@@ -4,7 +4,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, Frame};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length};
+use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length, rot90};
 use nalgebra::Vector2;
 
 /// A force at a place, or a couple, on a frame.
@@ -27,6 +27,16 @@ impl<T: Real> Wrench<T> {
 
     pub(super) fn couple(frame: Frame, couple: T) -> Self {
         Self { frame, place: Vector2::zeros(), force: Vector2::zeros(), couple }
+    }
+
+    /// Adds it to the three equations of the body on which it acts.
+    pub(crate) fn add_to(&self, configuration: &Configuration<T>, mut add: impl FnMut(usize, T)) {
+        let Some(body) = self.frame.body() else { return };
+        let row = 3 * body.index();
+        let arm = configuration.arm(self.frame, self.place);
+        add(row, self.force.x);
+        add(row + 1, self.force.y);
+        add(row + 2, rot90(arm).dot(&self.force) + self.couple);
     }
 }
 

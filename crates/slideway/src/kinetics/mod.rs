@@ -32,7 +32,7 @@ use crate::configuration::{Configuration, ContactGeometry, motion_in_words, move
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Contact, JointKind, Load, Mechanism, Slider, rot90};
+use crate::mechanism::{Contact, JointKind, Load, Mechanism, Slider};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
@@ -300,14 +300,16 @@ impl KineticEquations {
     /// Returns the self-stresses: the contribution of a unit normal force of each cut contact to all
     /// unknowns.
     pub fn self_stresses(&self) -> Vec<DVector<f64>> {
-        let units: Vec<DVector<f64>> = self.layout.cut_units();
-        let solutions = self.factorization.solve(&units.iter().collect::<Vec<_>>());
-        solutions.iter().map(|solution| self.without_noise(solution)).collect()
+        self.answers(&self.layout.cut_units())
     }
 
     /// Returns the contribution of a unit acceleration of the gap of each contact that may lift off to all unknowns.
     pub(crate) fn gap_accelerations(&self) -> Vec<DVector<f64>> {
-        let units: Vec<DVector<f64>> = self.layout.opening_units();
+        self.answers(&self.layout.opening_units())
+    }
+
+    /// The unknowns for each of these right-hand sides, without their rounding.
+    fn answers(&self, units: &[DVector<f64>]) -> Vec<DVector<f64>> {
         let solutions = self.factorization.solve(&units.iter().collect::<Vec<_>>());
         solutions.iter().map(|solution| self.without_noise(solution)).collect()
     }
@@ -325,7 +327,7 @@ impl KineticEquations {
         let mut forces = DVector::zeros(self.load.len());
         let builder = Builder { mechanism, configuration, layout: &self.layout };
         for wrench in &load_wrenches(mechanism, configuration, load)? {
-            builder.add(wrench, |row, value| forces[row] += value);
+            wrench.add_to(&builder.configuration, |row, value| forces[row] += value);
         }
         Ok(self.without_noise(&self.factorization.solve(&[&forces])[0]))
     }
@@ -333,14 +335,6 @@ impl KineticEquations {
     /// The unknowns without friction.
     pub fn frictionless(&self) -> DVector<f64> {
         self.factorization.solve(&[&self.load]).remove(0)
-    }
-
-    /// Returns the contribution of a unit friction force of a contact to the unknowns, for both sides of
-    /// contact.
-    pub fn influence_of(&self, contact: ContactId) -> [DVector<f64>; 2] {
-        let sides = self.friction[contact.index()].each_ref();
-        let mut columns = self.factorization.solve(&sides);
-        [columns.swap_remove(0), columns.remove(0)]
     }
 
     /// The unknowns with these friction forces at both faces of each contact and these accelerations of gaps, after a step of
@@ -545,7 +539,7 @@ impl<T: Real> Builder<'_, T> {
                 matrix[(effort, column)] += value;
             }
             for wrench in loads::unit_effort(self.mechanism, self.configuration, &drive.effort) {
-                self.add(&wrench, |row, value| matrix[(row, effort)] -= value);
+                wrench.add_to(&self.configuration, |row, value| matrix[(row, effort)] -= value);
             }
         }
         matrix
@@ -574,7 +568,7 @@ impl<T: Real> Builder<'_, T> {
     ) -> Result<DVector<T>, Faults> {
         let mut load = DVector::zeros(self.layout.len());
         for wrench in applied {
-            self.add(wrench, |row, value| load[row] += value);
+            wrench.add_to(&self.configuration, |row, value| load[row] += value);
         }
         let first = 3 * self.mechanism.bodies.len();
         for (index, row) in constraints.iter().enumerate() {
@@ -599,7 +593,7 @@ impl<T: Real> Builder<'_, T> {
         [T::one(), -T::one()].map(|sign| {
             let mut column = DVector::zeros(self.layout.len());
             for wrench in friction_forces(self.mechanism, id, contact, sign, T::one()) {
-                self.add(&wrench, |row, value| column[row] += value);
+                wrench.add_to(&self.configuration, |row, value| column[row] += value);
             }
             column
         })
@@ -609,19 +603,9 @@ impl<T: Real> Builder<'_, T> {
     fn friction_couple(&self, joint: JointId) -> DVector<T> {
         let mut column = DVector::zeros(self.layout.len());
         for wrench in self.mechanism.friction_couple(joint, T::one()) {
-            self.add(&wrench, |row, value| column[row] += value);
+            wrench.add_to(&self.configuration, |row, value| column[row] += value);
         }
         column
-    }
-
-    /// Adds a force or couple on a body to the three equations of that body.
-    fn add(&self, wrench: &Wrench<T>, mut add: impl FnMut(usize, T)) {
-        let Some(body) = wrench.frame.body() else { return };
-        let row = self.layout.acceleration(body);
-        let arm = self.configuration.arm(wrench.frame, wrench.place);
-        add(row, wrench.force.x);
-        add(row + 1, wrench.force.y);
-        add(row + 2, rot90(arm).dot(&wrench.force) + wrench.couple);
     }
 }
 

@@ -10,14 +10,14 @@ use super::report::{
 use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
 use crate::fault::Faults;
-use crate::ids::{ContactId, JointId};
-use crate::mechanism::{Coordinate, Mechanism, Slider};
+use crate::ids::ContactId;
+use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
 use crate::modes::ContactState;
 use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{CoordinateState, JointMode, ModeEndCause, NO_DRIVE, Tipping};
-use crate::solve::{joint_mode_in_words, pattern, signs};
+use crate::solve::{joint_modes, pattern, signs, states};
 
 impl VariedQuantity {
     pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
@@ -76,31 +76,15 @@ impl Naming {
     }
 
     fn joint_modes(&self, signs: &[i8]) -> Vec<JointMode> {
-        let one = |(_, name, slider): (JointId, &str, &Slider)| {
-            let tangent = self.configuration.slide(&self.mechanism, slider).tangent;
-            let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-            let mode = joint_mode_in_words(&self.mechanism, slider, tangent, &signs);
-            JointMode { name: name.to_owned(), mode, start: None }
-        };
-        self.sliders().map(one).collect()
+        joint_modes(&self.mechanism, &self.configuration, signs)
     }
 
     /// The contact modes of all joints in a pattern, in words.
     pub(crate) fn in_words(&self, pattern: &str) -> String {
-        let sign = |sign: char| match sign {
-            '+' => 1,
-            '-' => -1,
-            _ => 0,
-        };
-        let signs: Vec<i8> = pattern.chars().map(sign).collect();
+        let signs = signs(&states(pattern));
         let words =
             self.joint_modes(&signs).into_iter().map(|joint| format!("{} {}", joint.name, joint.mode));
         words.collect::<Vec<_>>().join("; ")
-    }
-
-    fn sliders(&self) -> impl Iterator<Item = (JointId, &str, &Slider)> {
-        let name = |joint: JointId| &*self.mechanism.joints[joint.index()].name;
-        self.mechanism.sliders().map(move |(joint, slider)| (joint, name(joint), slider))
     }
 
     fn contacts(&self, contacts: &[usize]) -> Vec<String> {

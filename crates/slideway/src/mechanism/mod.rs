@@ -752,20 +752,11 @@ impl<T: Real> Mechanism<T> {
         positive != negative || self.preload_changes_face(contact)
     }
 
-    /// Kinetic friction coefficients of a contact at a sliding velocity (m/s), for both sides: they are even,
-    /// as the formulas know its absolute value alone.
+    /// Kinetic friction coefficients of a contact, for both sides, with a number in place of the sliding speed (m/s), and with
+    /// every relation on its piece, if pieces are given.
     ///
     /// # Errors
     /// A fault that names the speed if a coefficient is not finite or is negative there.
-    pub fn friction_at(&self, contact: ContactId, velocity: T) -> Result<[T; 2], Fault> {
-        self.friction_of(contact, velocity.abs(), None)
-    }
-
-    /// The formulas of [`Self::friction_at`] with a number in place of the sliding speed, with every relation
-    /// on its piece, if pieces are given.
-    ///
-    /// # Errors
-    /// As there.
     pub(crate) fn friction_of(
         &self,
         contact: ContactId,

@@ -263,7 +263,7 @@ impl<'w> Pinned<'_, 'w> {
         for _ in self.steps() {
             let Some(sectors) = open.pop() else { return Ok(found) };
             let outer = self.around(&sectors);
-            let Some(outer) = nearly_possible(outer)? else { continue };
+            let Some(outer) = outer.possible(NOTHING)? else { continue };
             let Ok(ends) = outer.ends(function) else {
                 let (_, at) = outer.highest()?;
                 let end = End { value: None, at, is_ray: false };
@@ -294,12 +294,12 @@ impl<'w> Pinned<'_, 'w> {
     /// The values of a function in regions from inside, whose directions are those that the reactions have somewhere, then
     /// at the least or greatest value so far: each has the end of the one before. Nothing if the first is empty.
     fn climbed(&self, function: &Affine, (end, side): (&End, usize)) -> Result<Option<Extent>, Unsolved> {
-        let Some(inner) = nearly_possible(self.inside(end))? else { return Ok(None) };
+        let Some(inner) = self.inside(end).possible(NOTHING)? else { return Ok(None) };
         let mut ends = inner.ends(function)?;
         let mut extent = ends.each_ref().map(|end| end.value);
         for _ in 0..MOST_STEPS {
             let Some(before) = ends[side].value else { break };
-            let Some(inner) = nearly_possible(self.inside(&ends[side]))? else { break };
+            let Some(inner) = self.inside(&ends[side]).possible(NOTHING)? else { break };
             ends = inner.ends(function)?;
             extent = hull(extent, ends.each_ref().map(|end| end.value));
             let stays = |value: f64| (value - before).abs() <= AGREEMENT * before.abs().max(1.0);
@@ -421,12 +421,6 @@ pub(crate) fn direction(force: [f64; 2]) -> [f64; 2] {
 fn change(one: &Directions, other: &Directions) -> f64 {
     let differences = one.iter().flatten().zip(other.iter().flatten()).map(|(a, b)| (a - b).abs());
     differences.fold(0.0, f64::max)
-}
-
-/// A region that is not empty but for rounding, relaxed by that.
-fn nearly_possible(region: Region<'_>) -> Result<Option<Region<'_>>, Unsolved> {
-    let (slack, _) = region.highest()?;
-    Ok((slack >= -NOTHING).then(|| region.relaxed(-slack.min(0.0))))
 }
 
 /// The least extent that has both.

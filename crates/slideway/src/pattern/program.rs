@@ -145,6 +145,15 @@ impl Region<'_> {
         }
     }
 
+    /// The region, relaxed by as little as its points ask for. Returns `None` if they miss a slack by more than `tolerance`.
+    ///
+    /// # Errors
+    /// As [`Region::highest`].
+    pub(crate) fn possible(self, tolerance: f64) -> Result<Option<Self>, Unsolved> {
+        let (slack, _) = self.highest()?;
+        Ok((slack >= -tolerance).then(|| self.relaxed(-slack.min(0.0))))
+    }
+
     /// The region with every slack greater by the same amount.
     pub(crate) fn relaxed(mut self, amount: f64) -> Self {
         for slack in &mut self.slacks {

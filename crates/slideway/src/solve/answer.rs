@@ -9,7 +9,7 @@ use super::friction::friction;
 use super::parts::contact_couples;
 use super::resting::Resting;
 use super::stages::Stages;
-use super::state::{State, in_gap, pattern, point, pressed, regular, signs};
+use super::state::{State, in_gap, pattern, point, pressed, regular, signs, states_of};
 use super::words::joint_mode_in_words;
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedOutputs, Tipping};
@@ -184,12 +184,7 @@ impl<'a> Answer<'a> {
     /// The contacts without normal force where the others do not hold the block: it floats within its play.
     fn floating(&self, signs: &[i8]) -> Vec<usize> {
         let open = &self.mechanism.excess.open;
-        let state = |sign: &i8| match sign {
-            1 => ContactState::Positive,
-            -1 => ContactState::Negative,
-            _ => ContactState::Gap,
-        };
-        if open.holds(&signs.iter().map(state).collect::<Vec<_>>()) {
+        if open.holds(&states_of(signs)) {
             return Vec::new();
         }
         (0..signs.len()).filter(|&k| signs[k] == 0 && open.shares(k)).collect()
@@ -655,7 +650,7 @@ fn pattern_summary(outcomes: &PatternOutcomes, rejected: u64) -> report::Pattern
 }
 
 /// The contact mode of each sliding joint, by the signs of all normal forces.
-pub(super) fn joint_modes(
+pub(crate) fn joint_modes(
     mechanism: &Mechanism,
     configuration: &Configuration,
     signs: &[i8],

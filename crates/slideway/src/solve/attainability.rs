@@ -5,6 +5,7 @@ mod tests;
 
 use super::answer::Answer;
 use super::mode_problem::ProblemData;
+use super::state::states;
 use crate::attainability::{Candidate, ElasticGuides};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -75,7 +76,7 @@ impl Closed {
         let contact = |&k: &usize| &solution.contacts[k];
         let forces = self.kept.iter().map(|k| contact(k).normal_force);
         Candidate {
-            states: self.states(&states(solution)),
+            states: self.states(&states(&solution.pattern)),
             normal_force: DVector::from_iterator(self.kept.len(), forces),
             deflections: self.kept.iter().map(|k| contact(k).deflection).collect(),
         }
@@ -98,7 +99,10 @@ impl Answer<'_> {
         }
         let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
         for (index, solution) in solutions.iter().enumerate() {
-            groups.entry(self.mechanism.opening(&states(solution)).collect()).or_default().push(index);
+            groups
+                .entry(self.mechanism.opening(&states(&solution.pattern)).collect())
+                .or_default()
+                .push(index);
         }
         for (open, members) in groups {
             self.examine_closed(solutions, &open, &members)?;
@@ -126,7 +130,7 @@ impl Answer<'_> {
         }
         let guides = closed.guides();
         for &index in members {
-            let states = closed.states(&states(&solutions[index]));
+            let states = closed.states(&states(&solutions[index].pattern));
             if !open.is_empty() {
                 solutions[index].oriented_determinant = guides.oriented_determinant(&states);
             } else if let Some(mean) = guides.oriented_mean(&states) {
@@ -159,15 +163,6 @@ impl Answer<'_> {
 /// Whether a solution belongs to several modes, or to a singular one.
 fn is_on_boundary(solution: &Solution) -> bool {
     let pressed =
-        solution.signs.iter().zip(states(solution)).filter(|(_, state)| *state != ContactState::Gap);
+        solution.signs.iter().zip(states(&solution.pattern)).filter(|(_, state)| *state != ContactState::Gap);
     solution.on_boundary || solution.determinant == 0.0 || pressed.into_iter().any(|(sign, _)| *sign == 0)
-}
-
-fn states(solution: &Solution) -> Vec<ContactState> {
-    let state = |state: char| match state {
-        '+' => ContactState::Positive,
-        '-' => ContactState::Negative,
-        _ => ContactState::Gap,
-    };
-    solution.pattern.chars().map(state).collect()
 }

@@ -61,9 +61,9 @@ pub fn locking(
         return None;
     }
     let (stages, _) = Stages::with_equations(mechanism.clone(), configuration.clone()).ok()?;
-    let followed = |locked: &LockedMode| Some((states(&locked.pattern)?, locked.factor));
+    let followed = |locked: &LockedMode| (states(&locked.pattern), locked.factor);
     let (mode, factor) = match &report.margins {
-        Some(margins) => margins.locking.as_ref().and_then(followed),
+        Some(margins) => margins.locking.as_ref().map(followed),
         None => locking_mode(stages.data()),
     }?;
     balance(&stages, &mode, factor)

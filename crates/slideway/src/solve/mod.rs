@@ -43,6 +43,7 @@ mod trail;
 mod uncertainty;
 mod words;
 
+pub(crate) use answer::joint_modes;
 pub(crate) use attainability::Closed;
 pub(crate) use between_faces::states_between_faces;
 pub use blocks::exact_block_problem;
@@ -60,7 +61,7 @@ pub(crate) use sharing::load_sharing;
 pub(crate) use stages::Stages;
 pub use stages::exact_mode_problem;
 pub(crate) use standing::{check_none_stands, check_standing};
-pub(crate) use state::{pattern, signs};
+pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::certain_counts;

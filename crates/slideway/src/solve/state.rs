@@ -117,13 +117,22 @@ pub(crate) fn pattern(states: &[ContactState]) -> String {
     states.iter().map(sign).collect()
 }
 
-/// The states of a pattern that is written so; none if it is not.
-pub(crate) fn states(pattern: &str) -> Option<Vec<ContactState>> {
+/// The states with these signs of the normal forces, in a gap where there is none.
+pub(super) fn states_of(signs: &[i8]) -> Vec<ContactState> {
+    let state = |sign: &i8| match sign {
+        1 => ContactState::Positive,
+        -1 => ContactState::Negative,
+        _ => ContactState::Gap,
+    };
+    signs.iter().map(state).collect()
+}
+
+/// The states of a pattern that is written as [`pattern`] writes it.
+pub(crate) fn states(pattern: &str) -> Vec<ContactState> {
     let state = |sign: char| match sign {
-        '+' => Some(ContactState::Positive),
-        '-' => Some(ContactState::Negative),
-        '0' => Some(ContactState::Gap),
-        _ => None,
+        '+' => ContactState::Positive,
+        '-' => ContactState::Negative,
+        _ => ContactState::Gap,
     };
     pattern.chars().map(state).collect()
 }

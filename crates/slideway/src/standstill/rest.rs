@@ -35,8 +35,7 @@ pub(super) fn static_friction(setup: &Setup) -> StaticFriction {
 
 /// The region of a state if it is not empty, relaxed by as little as rounding asks for.
 pub(super) fn possible(region: Region<'_>) -> Result<Option<Region<'_>>, Unsolved> {
-    let (slack, _) = region.highest()?;
-    Ok((slack >= -TOLERANCE).then(|| region.relaxed(-slack.min(0.0))))
+    region.possible(TOLERANCE)
 }
 
 /// One sign for each contact. One that shares a load and has no normal force is open, or just touches.

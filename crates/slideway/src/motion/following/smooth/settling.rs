@@ -63,23 +63,23 @@ impl Smooth<'_, '_> {
         let mut held = phase.clone();
         let sliders = self.equations.sliders.iter().zip(&mut held.joints);
         sliders.filter(|(id, _)| **id == joint).for_each(|(_, state)| *state = JointPhase::Sticking);
-        if self.equations.enter(&held, self.time, &self.state).is_err() {
-            return;
+        if self.equations.enter(&held, self.time, &self.state).is_ok() {
+            self.equations.hold_at(joint, displacement);
+            self.put_in_place();
         }
-        self.equations.hold_at(joint, displacement);
-        let mut moved = self.state.clone();
-        self.equations.project(&mut moved);
-        let places = 3 * self.equations.mechanism.bodies.len();
-        self.state[..places].copy_from_slice(&moved[..places]);
     }
 
     /// Brings contacts that have reached their faces exactly there, within errors of steps, as reactions would.
     pub(in crate::motion) fn put_on_face(&mut self, phase: &Phase, contacts: &[ContactId]) {
         let mut closed = phase.clone();
         contacts.iter().for_each(|contact| closed.contacts[contact.index()] = ContactPhase::CLOSED[0]);
-        if self.equations.enter(&closed, self.time, &self.state).is_err() {
-            return;
+        if self.equations.enter(&closed, self.time, &self.state).is_ok() {
+            self.put_in_place();
         }
+    }
+
+    /// Moves the bodies to where the equations hold.
+    fn put_in_place(&mut self) {
         let mut moved = self.state.clone();
         self.equations.project(&mut moved);
         let places = 3 * self.equations.mechanism.bodies.len();

@@ -1,10 +1,8 @@
 //! The matrix and the right-hand side, written anew at each evaluation.
 
 use super::{Equations, Failure, Rubbing};
-use crate::configuration::Configuration;
 use crate::ids::{ContactId, DriveId};
-use crate::kinetics::{ConstraintRow, Wrench, effort_forces, friction_forces};
-use crate::mechanism::rot90;
+use crate::kinetics::{ConstraintRow, effort_forces, friction_forces};
 use crate::modes::Side;
 use crate::motion::moving::linear::LinearSystem;
 use crate::pattern::face;
@@ -21,7 +19,7 @@ impl Equations<'_> {
             }
         }
         for wrench in &self.applied.wrenches {
-            add(&self.configuration, wrench, |row, value| self.unknowns[row] += value);
+            wrench.add_to(&self.configuration, |row, value| self.unknowns[row] += value);
         }
         self.assemble_constraints();
         self.update_friction()?;
@@ -95,7 +93,7 @@ impl Equations<'_> {
                 }
                 let contact = &self.contacts[k];
                 for wrench in friction_forces(self.mechanism, ContactId(k), contact, side.sign(), 1.0) {
-                    add(&self.configuration, &wrench, |row, value| {
+                    wrench.add_to(&self.configuration, |row, value| {
                         self.system.add(row, column, -value * factor * sigma);
                         self.unknowns[row] += value * constant;
                     });
@@ -113,7 +111,7 @@ impl Equations<'_> {
                 self.system.add(effort, column, value);
             }
             for wrench in effort_forces(self.mechanism, &self.configuration, &drive.effort) {
-                add(&self.configuration, &wrench, |row, value| self.system.add(row, effort, -value));
+                wrench.add_to(&self.configuration, |row, value| self.system.add(row, effort, -value));
             }
             let prescribed = self.configuration.quantity(self.mechanism, drive.acceleration);
             self.unknowns[effort] =
@@ -121,16 +119,6 @@ impl Equations<'_> {
         }
         Ok(())
     }
-}
-
-/// Adds a force or couple on a body to the three equations of that body.
-fn add(configuration: &Configuration, wrench: &Wrench, mut add: impl FnMut(usize, f64)) {
-    let Some(body) = wrench.frame.body() else { return };
-    let row = 3 * body.index();
-    let arm = configuration.arm(wrench.frame, wrench.place);
-    add(row, wrench.force.x);
-    add(row + 1, wrench.force.y);
-    add(row + 2, rot90(arm).dot(&wrench.force) + wrench.couple);
 }
 
 /// A row of constraints, its force as a column, and its right-hand side.
