@@ -41,8 +41,7 @@ impl CountInterval {
 /// `existence` contains the modes of `line` in that `range`. Two patterns count once if they have the same
 /// solution, as they do if a normal force is zero throughout.
 pub fn counts(line: &ModeProblemLine, existence: &Existence, range: [f64; 2]) -> Vec<CountInterval> {
-    let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-    let cells = cells(ends.chain(range), is_same_end);
+    let cells = cells(ends(&existence.modes).chain(range), is_same_end);
     counts_in(existence, &cells, &|modes, at| line.distinct(modes, at))
 }
 
@@ -73,6 +72,11 @@ pub fn counts_in(
         }
     }
     intervals
+}
+
+/// Where modes begin and end.
+pub fn ends(modes: &[ModeInterval]) -> impl Iterator<Item = f64> {
+    modes.iter().flat_map(|mode| [mode.from.at, mode.to.at])
 }
 
 /// The cells between places given in any order; coinciding places count as one.

@@ -32,8 +32,7 @@ use crate::progress::{Callback, Progress};
 use extent::Extent;
 use line::{Cause, Condition, End, Line, Part, Value};
 
-pub use counts::is_same_end;
-pub use counts::{CountInterval, cells, counts, counts_in, nothing_is_left};
+pub use counts::{CountInterval, cells, counts, counts_in, ends, is_same_end, nothing_is_left};
 pub use line::Limit;
 
 /// Mode problems whose numbers are affine in a parameter `t`: index 0 contains the values at `t = 0`, and

@@ -16,6 +16,49 @@
 //! assembles with the code of the other stages. Only the interval Newton operator for the positions and the
 //! verified linear systems (`modes::certificate::enclose_solution`) are separate.
 
+/// Differences, sums and assignments, from the other operations.
+macro_rules! arithmetic_that_follows {
+    ($number:ty) => {
+        impl Sub for $number {
+            type Output = Self;
+
+            fn sub(self, other: Self) -> Self {
+                self + -other
+            }
+        }
+
+        impl AddAssign for $number {
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl SubAssign for $number {
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+
+        impl MulAssign for $number {
+            fn mul_assign(&mut self, other: Self) {
+                *self = *self * other;
+            }
+        }
+
+        impl DivAssign for $number {
+            fn div_assign(&mut self, divisor: Self) {
+                *self = *self / divisor;
+            }
+        }
+
+        impl Sum for $number {
+            fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
+                terms.fold(Zero::zero(), Add::add)
+            }
+        }
+    };
+}
+
 mod functions;
 mod real;
 mod sloped;
@@ -24,7 +67,9 @@ pub use real::Real;
 pub use sloped::Sloped;
 
 use crate::error_free::{product_remainder, sum_remainder};
+use num_traits::Zero;
 use std::f64::consts::PI;
+use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// Below this size, the remainder of a product or quotient may itself be rounded.
@@ -210,14 +255,6 @@ impl Neg for Interval {
     }
 }
 
-impl Sub for Interval {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
 impl Mul for Interval {
     type Output = Self;
 
@@ -239,35 +276,7 @@ impl Div for Interval {
     }
 }
 
-impl AddAssign for Interval {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Interval {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Interval {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
-
-impl DivAssign for Interval {
-    fn div_assign(&mut self, divisor: Self) {
-        *self = *self / divisor;
-    }
-}
-
-impl std::iter::Sum for Interval {
-    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
-        terms.fold(Self::ZERO, Add::add)
-    }
-}
+arithmetic_that_follows!(Interval);
 
 fn corners(one: Interval, other: Interval) -> [(f64, f64); 4] {
     [(one.lower, other.lower), (one.lower, other.upper), (one.upper, other.lower), (one.upper, other.upper)]

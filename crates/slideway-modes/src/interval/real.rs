@@ -140,6 +140,20 @@ pub trait Real:
     fn max(self, other: Self) -> Self;
 }
 
+/// Functions as plain numbers have them.
+macro_rules! of_f64 {
+    ($($name:ident),*) => {
+        $(fn $name(self) -> Self {
+            f64::$name(self)
+        })*
+    };
+    (with another: $($name:ident),*) => {
+        $(fn $name(self, other: Self) -> Self {
+            f64::$name(self, other)
+        })*
+    };
+}
+
 impl Real for f64 {
     fn exactly(value: f64) -> Self {
         value
@@ -169,16 +183,11 @@ impl Real for f64 {
         number(self)
     }
 
+    of_f64!(sqrt, abs, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, ln, log10);
+    of_f64!(with another: atan2, hypot, min, max);
+
     fn square(self) -> Self {
         self * self
-    }
-
-    fn sqrt(self) -> Self {
-        f64::sqrt(self)
-    }
-
-    fn abs(self) -> Self {
-        f64::abs(self)
     }
 
     fn sign_value(self) -> Self {
@@ -187,14 +196,6 @@ impl Real for f64 {
 
     fn step(self) -> Self {
         if self < 0.0 { 0.0 } else { 1.0 }
-    }
-
-    fn sin(self) -> Self {
-        f64::sin(self)
-    }
-
-    fn cos(self) -> Self {
-        f64::cos(self)
     }
 
     fn direction(self) -> [Self; 2] {
@@ -211,63 +212,7 @@ impl Real for f64 {
         }
     }
 
-    fn tan(self) -> Self {
-        f64::tan(self)
-    }
-
-    fn asin(self) -> Self {
-        f64::asin(self)
-    }
-
-    fn acos(self) -> Self {
-        f64::acos(self)
-    }
-
-    fn atan(self) -> Self {
-        f64::atan(self)
-    }
-
-    fn sinh(self) -> Self {
-        f64::sinh(self)
-    }
-
-    fn cosh(self) -> Self {
-        f64::cosh(self)
-    }
-
-    fn tanh(self) -> Self {
-        f64::tanh(self)
-    }
-
-    fn exp(self) -> Self {
-        f64::exp(self)
-    }
-
-    fn ln(self) -> Self {
-        f64::ln(self)
-    }
-
-    fn log10(self) -> Self {
-        f64::log10(self)
-    }
-
     fn power(self, exponent: Self) -> Self {
         self.powf(exponent)
-    }
-
-    fn atan2(self, x: Self) -> Self {
-        f64::atan2(self, x)
-    }
-
-    fn hypot(self, other: Self) -> Self {
-        f64::hypot(self, other)
-    }
-
-    fn min(self, other: Self) -> Self {
-        f64::min(self, other)
-    }
-
-    fn max(self, other: Self) -> Self {
-        f64::max(self, other)
     }
 }

@@ -73,14 +73,6 @@ impl Neg for Sloped {
     }
 }
 
-impl Sub for Sloped {
-    type Output = Self;
-
-    fn sub(self, other: Self) -> Self {
-        self + -other
-    }
-}
-
 impl Mul for Sloped {
     type Output = Self;
 
@@ -104,35 +96,7 @@ impl Div for Sloped {
     }
 }
 
-impl AddAssign for Sloped {
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl SubAssign for Sloped {
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
-
-impl MulAssign for Sloped {
-    fn mul_assign(&mut self, other: Self) {
-        *self = *self * other;
-    }
-}
-
-impl DivAssign for Sloped {
-    fn div_assign(&mut self, divisor: Self) {
-        *self = *self / divisor;
-    }
-}
-
-impl Sum for Sloped {
-    fn sum<I: Iterator<Item = Self>>(terms: I) -> Self {
-        terms.fold(Self::zero(), Add::add)
-    }
-}
+arithmetic_that_follows!(Sloped);
 
 impl Zero for Sloped {
     fn zero() -> Self {

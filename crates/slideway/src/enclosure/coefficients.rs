@@ -1,6 +1,7 @@
 //! From kinetic equations within intervals to bounds of the influence coefficients.
 
-use super::{EnclosedCouple, EnclosedOutput, EnclosedOutputs, NotEnclosed, solution};
+use super::outputs::EnclosedCouple;
+use super::{EnclosedOutputs, NotEnclosed, solution};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
@@ -11,7 +12,7 @@ use crate::modes::{BySide, InfluenceCoefficients, Side};
 use crate::problem::{TurningHinge, friction_of_contacts, preload_columns};
 use crate::progress::Work;
 use crate::sharing::{NO_STRESS, shared_load};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, RowDVector};
 
 /// Where parameters are uncertain, forces below this multiple of the greatest are taken for nothing but
 /// rounding. It is a convention, which decides only what is called a solution in the middle of the bounds,
@@ -24,8 +25,6 @@ pub(super) struct RubbingHinge {
     column: usize,
     /// The couple on its first body by a unit of its force.
     leverage: Interval,
-    /// The angular velocity of its first body against the second (rad/s).
-    spin: Interval,
 }
 
 /// A mechanism in its configuration, all within intervals.
@@ -40,63 +39,77 @@ pub(super) struct Coefficients<'a> {
 }
 
 impl Coefficients<'_> {
-    /// Returns the coefficients of the problem of the contacts and of these hinges, and those in the same rows with all
-    /// jumps.
+    /// Returns the coefficients of the problem of the contacts and of these hinges, and what follows from its forces.
     pub(super) fn problem(
         &self,
         unknowns: &DMatrix<Interval>,
         hinges: &[TurningHinge],
         rubbing: &[RubbingHinge],
-    ) -> Result<[InfluenceCoefficients<Interval>; 2], NotEnclosed> {
+    ) -> Result<(InfluenceCoefficients<Interval>, EnclosedOutputs), NotEnclosed> {
         let layout = &self.equations.layout;
         let normals = (0..self.mechanism.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
         let forces = hinges.iter().flat_map(|hinge| [0, 1].map(|axis| Reaction::Hinge(hinge.joint, axis)));
         let rows: Option<Vec<usize>> = normals.chain(forces).map(|force| layout.reaction(force)).collect();
         let rows = rows.ok_or(NotEnclosed::Equations)?;
-        let influence = self.influence(unknowns, &rows, rubbing)?;
-        Ok([self.without_shared_jumps(&influence), influence])
+        let (couples, places): (Vec<EnclosedCouple>, Vec<usize>) = self.couples().into_iter().unzip();
+        let of_unknowns = rows.iter().chain(&places).map(|&row| unknowns.row(row).into_owned());
+        let outputs = self.accelerations(unknowns).into_iter().chain([self.power(unknowns.ncols())]);
+        let answers = DMatrix::from_rows(&of_unknowns.chain(outputs).collect::<Vec<_>>());
+        let scale = self.greatest_force(&|row| unknowns[(row, 0)]);
+        let forces = answers.rows(0, rows.len()).into_owned();
+        let influence = self.influence(&forces, (rows.len(), scale), &couples, rubbing)?;
+        let all = self.influence(&answers, (rows.len(), scale), &couples, rubbing)?;
+        let numbers = all.numbers().rows(rows.len()..answers.nrows());
+        Ok((self.without_shared_jumps(&influence), EnclosedOutputs { influence, numbers, couples }))
     }
 
-    /// Bounds of the influence coefficients of the contacts and hinges in these rows.
+    /// Bounds of the influence coefficients of the contacts and hinges, from the rows of all answers: first those of so many
+    /// forces, of which rounding is this part, then those of the couples of guided sliders, and of other outputs.
     fn influence(
         &self,
-        unknowns: &DMatrix<Interval>,
-        rows: &[usize],
+        answers: &DMatrix<Interval>,
+        (forces, scale): (usize, f64),
+        couples: &[EnclosedCouple],
         rubbing: &[RubbingHinge],
     ) -> Result<InfluenceCoefficients<Interval>, NotEnclosed> {
-        let contacts = self.mechanism.contacts.len();
-        let scale = self.greatest_force(&|row| unknowns[(row, 0)]);
-        let self_stress = self.self_stresses(unknowns, rows);
-        let answers = |column: usize| DVector::from_fn(rows.len(), |row, _| unknowns[(rows[row], column)]);
-        let positive = DMatrix::from_fn(rows.len(), contacts, |row, k| {
-            self.without_rounding(unknowns[(rows[row], 1 + k)], 1.0)
-        });
-        let negative = self.negative_versions(positive.clone(), &self_stress);
+        let (rows, contacts) = (answers.nrows(), self.mechanism.contacts.len());
+        let entry = |row: usize, column: usize, scale: f64| match answers[(row, column)] {
+            value if row < forces => self.without_rounding(value, scale),
+            value => value,
+        };
+        let column = |at: usize| DVector::from_fn(rows, |row, _| entry(row, at, 1.0));
+        let self_stress = self.self_stresses(answers, forces);
+        let positive = DMatrix::from_fn(rows, contacts, |row, k| entry(row, 1 + k, 1.0));
+        let mut negative = self.negative_versions(positive.clone(), &self_stress);
+        for (row, couple) in (forces..rows).zip(couples) {
+            // At the other face the slider's own friction turns by h more the one way, and its couple the other way.
+            negative[(row, couple.contact)] -= couple.height;
+        }
         let eta = BySide { positive, negative };
         let [mu, preload] = friction_of_contacts(self.mechanism, &|_| true);
+        let couple = |hinge: &RubbingHinge| (answers.column(hinge.column).into_owned(), hinge.leverage);
         Ok(InfluenceCoefficients {
             eta_preload: preload_columns(self.mechanism, &eta),
             eta,
             mu,
             preload,
             velocity_signs: self.velocity_signs()?,
-            frictionless: DVector::from_fn(rows.len(), |row, _| {
-                self.without_rounding(unknowns[(rows[row], 0)], scale)
-            }),
+            frictionless: DVector::from_fn(rows, |row, _| entry(row, 0, scale)),
             shared: shared_load(self.mechanism, self_stress).map_err(NotEnclosed::Values)?,
-            one_sided: self.openings(|at| {
-                DVector::from_fn(rows.len(), |row, _| self.without_rounding(unknowns[(rows[row], at)], 1.0))
-            }),
-            turning: rubbing.iter().map(|hinge| (answers(hinge.column), hinge.leverage)).collect(),
+            one_sided: self.openings().map(|(contact, at)| (contact.index(), column(at))).collect(),
+            turning: rubbing.iter().map(couple).collect(),
         })
     }
 
-    /// For each contact that may lift off what follows from the column of its opening among all unknowns.
-    fn openings<R>(&self, of_column: impl Fn(usize) -> R) -> Vec<(usize, R)> {
+    /// The contacts that may lift off, each with the column of its opening among all answers.
+    fn openings(&self) -> impl Iterator<Item = (ContactId, usize)> {
         let layout = &self.equations.layout;
-        let first = 1 + self.mechanism.contacts.len() + layout.cut().len() + self.equations.couples.len();
-        let contacts = layout.one_sided().iter().zip(first..);
-        contacts.map(|(contact, at)| (contact.index(), of_column(at))).collect()
+        layout.one_sided().iter().copied().zip(self.first_couple() + self.equations.couples.len()..)
+    }
+
+    /// The first column of the answers to a unit couple.
+    fn first_couple(&self) -> usize {
+        1 + self.mechanism.contacts.len() + self.equations.layout.cut().len()
     }
 
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
@@ -128,14 +141,14 @@ impl Coefficients<'_> {
         Some(unknowns)
     }
 
-    /// The forces of the self-stresses in these rows. That nothing but rounding stands where a contact takes
-    /// no part is known from the rank of the joint equations, which is decided in the drawing.
-    fn self_stresses(&self, unknowns: &DMatrix<Interval>, rows: &[usize]) -> DMatrix<Interval> {
+    /// The self-stresses in the rows of all answers, of which the first are forces. That nothing but rounding stands where a
+    /// contact takes no part is known from the rank of the joint equations, which is decided in the drawing.
+    fn self_stresses(&self, answers: &DMatrix<Interval>, forces: usize) -> DMatrix<Interval> {
         let first = 1 + self.mechanism.contacts.len();
-        DMatrix::from_fn(rows.len(), self.equations.layout.cut().len(), |row, stress| {
-            let value = unknowns[(rows[row], first + stress)];
+        DMatrix::from_fn(answers.nrows(), self.equations.layout.cut().len(), |row, stress| {
+            let value = answers[(row, first + stress)];
             let is_rounding = value.contains(0.0) && (self.are_numbers || value.magnitude() <= NO_STRESS);
-            if is_rounding { Interval::ZERO } else { value }
+            if is_rounding && row < forces { Interval::ZERO } else { value }
         })
     }
 
@@ -146,100 +159,51 @@ impl Coefficients<'_> {
         if is_rounding { Interval::around(0.0, value.magnitude()) } else { value }
     }
 
-    /// What follows from the forces.
-    pub(super) fn outputs(
-        &self,
-        influence: InfluenceCoefficients<Interval>,
-        unknowns: &DMatrix<Interval>,
-        hinges: &[RubbingHinge],
-    ) -> EnclosedOutputs {
-        EnclosedOutputs {
-            influence,
-            couples: self.couples(unknowns, hinges),
-            accelerations: self.accelerations(unknowns, hinges),
-            power: self.power(hinges),
-        }
-    }
-
-    /// The couples of the guided sliders.
-    fn couples(&self, unknowns: &DMatrix<Interval>, hinges: &[RubbingHinge]) -> Vec<EnclosedCouple> {
-        let joints = self.mechanism.joints.iter().enumerate();
-        let couple = |(index, _)| {
-            let joint = JointId(index);
-            let slider = self.mechanism.slider(joint)?;
+    /// The guided sliders, with the places of their couples among the unknowns.
+    fn couples(&self) -> Vec<(EnclosedCouple, usize)> {
+        let couple = |(joint, slider): (JointId, &Slider<Interval>)| {
             let row = self.equations.layout.reaction(Reaction::Couple(joint))?;
             let contact = slider.contacts.first()?.index();
-            let (contacts, row_of) = (self.mechanism.contacts.len(), unknowns.row(row));
-            let positive: Vec<Interval> = row_of.iter().skip(1).take(contacts).copied().collect();
-            let cut = self.equations.layout.cut().iter().map(|cut| cut.index());
-            let self_stress: Vec<(usize, Interval)> =
-                cut.zip(row_of.iter().skip(1 + contacts).copied()).collect();
-            // At the other face the slider's own friction turns by h more the one way, and its couple the
-            // other way.
-            let mut negative = positive.clone();
-            negative[contact] -= slider.height;
-            for (k, other) in negative.iter_mut().enumerate() {
-                let taken_up = self.taken_up_between_faces(k);
-                for &(cut, stress) in &self_stress {
-                    let by_cut = taken_up.iter().filter(|(by, _)| *by == cut);
-                    by_cut.for_each(|(_, force)| *other -= *force * stress);
-                }
-            }
-            let influence = BySide { positive, negative };
-            Some(EnclosedCouple {
-                contact,
-                half_length: slider.length * Interval::point(0.5),
-                couple: EnclosedOutput {
-                    frictionless: unknowns[(row, 0)],
-                    influence_preload: self.couple_of_preload(&influence),
-                    influence,
-                    self_stress,
-                    openings: self.openings(|column| row_of[column]),
-                    hinges: hinges.iter().map(|hinge| row_of[hinge.column] * hinge.leverage).collect(),
-                },
-            })
+            let half_length = slider.length * Interval::point(0.5);
+            Some((EnclosedCouple { contact, height: slider.height, half_length }, row))
         };
-        joints.filter_map(couple).collect()
+        self.mechanism.sliders().filter_map(couple).collect()
     }
 
-    /// The accelerations of the coordinates. A couple between the two faces of a joint changes none, as
-    /// [`Self::negative_versions`] says.
-    fn accelerations(&self, unknowns: &DMatrix<Interval>, hinges: &[RubbingHinge]) -> Vec<EnclosedOutput> {
+    /// The accelerations of the coordinates, a column for each of the unknowns. Self-stresses change none, and neither does a
+    /// couple between the two faces of a joint, as [`Self::negative_versions`] says.
+    fn accelerations(&self, unknowns: &DMatrix<Interval>) -> Vec<RowDVector<Interval>> {
+        let first = 1 + self.mechanism.contacts.len();
+        let cut = first..first + self.equations.layout.cut().len();
         let output = |row: &ConstraintRow<Interval>| {
-            let times = |column: usize| {
+            RowDVector::from_fn(unknowns.ncols(), |_, column| {
                 let terms = row.entries.iter().map(|&(index, value)| value * unknowns[(index, column)]);
-                terms.fold(Interval::ZERO, |sum, term| sum + term)
-            };
-            let influence = (1..=self.mechanism.contacts.len()).map(times).collect();
-            let hinges = hinges.iter().map(|hinge| times(hinge.column) * hinge.leverage).collect();
-            let output = EnclosedOutput::of_either_face(times(0) - row.right_hand_side, influence, hinges);
-            EnclosedOutput { openings: self.openings(times), ..output }
+                match column {
+                    0 => terms.fold(Interval::ZERO, |sum, term| sum + term) - row.right_hand_side,
+                    column if cut.contains(&column) => Interval::ZERO,
+                    _ => terms.fold(Interval::ZERO, |sum, term| sum + term),
+                }
+            })
         };
         self.equations.coordinate_rows.iter().map(output).collect()
     }
 
     /// The power of loads and weights, from which each friction force takes its own times the sliding
-    /// velocity, and each friction couple its own times the angular velocity of its hinge.
-    fn power(&self, hinges: &[RubbingHinge]) -> EnclosedOutput {
+    /// velocity, and each friction couple its own times the angular velocity of its hinge; of so many columns.
+    fn power(&self, columns: usize) -> RowDVector<Interval> {
         let of_load = |wrench: &Wrench<Interval>| {
             let velocity = self.configuration.velocity_at(wrench.frame, wrench.place);
             wrench.force.dot(&velocity) + wrench.couple * self.configuration.angular_velocity(wrench.frame)
         };
-        let loads = self.equations.applied.iter().map(of_load).fold(Interval::ZERO, |sum, power| sum + power);
-        let friction = self.equations.contacts.iter().map(|contact| -contact.sliding_velocity).collect();
-        let hinges = hinges.iter().map(|hinge| hinge.spin * hinge.leverage).collect();
-        EnclosedOutput::of_either_face(loads, friction, hinges)
-    }
-
-    /// The influence of the preload's friction on a couple: at the pressed face, or in the middle between
-    /// both.
-    fn couple_of_preload(&self, influence: &BySide<Vec<Interval>>) -> BySide<Vec<Interval>> {
-        let mut preload = influence.clone();
-        for (k, contact) in self.mechanism.contacts.iter().enumerate() {
-            let faces = [influence.positive[k], influence.negative[k]];
-            [preload.positive[k], preload.negative[k]] = contact.preload_line.of_faces(faces);
+        let mut power = RowDVector::from_element(columns, Interval::ZERO);
+        power[0] = self.equations.applied.iter().map(of_load).fold(Interval::ZERO, |sum, power| sum + power);
+        for (k, contact) in self.equations.contacts.iter().enumerate() {
+            power[1 + k] = -contact.sliding_velocity;
         }
-        preload
+        for (index, circle) in self.mechanism.friction_circles.iter().enumerate() {
+            power[self.first_couple() + index] = self.configuration.spin(self.mechanism, circle.joint);
+        }
+        power
     }
 
     /// The greatest sum of sizes of forces in an equation of motion, for given unknowns (N).
@@ -361,13 +325,12 @@ impl Coefficients<'_> {
 
     /// The hinges, with a certain sense of every one.
     pub(super) fn rubbing(&self, hinges: &[TurningHinge]) -> Result<Vec<RubbingHinge>, NotEnclosed> {
-        let first_couple = 1 + self.mechanism.contacts.len() + self.equations.layout.cut().len();
         let one = |hinge: &TurningHinge| {
             let spin = self.configuration.spin(self.mechanism, hinge.joint);
             let wanted = if hinge.sense > 0.0 { Sign::Positive } else { Sign::Negative };
             if spin.sign() == Some(wanted) {
                 let leverage = hinge.leverage(&self.mechanism.friction_circles[hinge.circle]);
-                Ok(RubbingHinge { column: first_couple + hinge.circle, leverage, spin })
+                Ok(RubbingHinge { column: self.first_couple() + hinge.circle, leverage })
             } else {
                 let hinge = self.mechanism.joints[hinge.joint.index()].name.to_string();
                 Err(NotEnclosed::SenseOfRotation { hinge, spin })

@@ -32,7 +32,6 @@ mod coefficients;
 mod motion;
 mod outputs;
 
-use outputs::{EnclosedCouple, EnclosedOutput};
 pub use outputs::{EnclosedOutputs, Tipping};
 
 use crate::configuration::Configuration;
@@ -321,13 +320,9 @@ fn enclosed<P>(
     };
     let rubbing = within.rubbing(hinges)?;
     let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
-    let [coefficients, influence] = within.problem(&unknowns, hinges, &rubbing)?;
-    Ok(Enclosed {
-        problem: make(&coefficients)?,
-        outputs: within.outputs(influence, &unknowns, &rubbing),
-        open: mechanism.excess.open.clone(),
-        coefficients,
-    })
+    let (coefficients, outputs) = within.problem(&unknowns, hinges, &rubbing)?;
+    let open = mechanism.excess.open.clone();
+    Ok(Enclosed { problem: make(&coefficients)?, outputs, open, coefficients })
 }
 
 /// Bounds of the solutions of a linear system; none if it is not proven to be regular, or once the work is to end.

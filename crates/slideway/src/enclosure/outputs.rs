@@ -2,7 +2,7 @@
 //! tip, accelerations and power.
 
 use crate::interval::Interval;
-use crate::modes::{BySide, ContactState, InfluenceCoefficients, Side};
+use crate::modes::{BlockNumbers, ContactState, InfluenceCoefficients, Side};
 
 /// Bounds of what follows from the forces of a state of the mode problem.
 #[derive(Debug, Clone, PartialEq)]
@@ -10,55 +10,23 @@ pub struct EnclosedOutputs {
     /// Bounds of the influence coefficients, friction coefficients, preloads and N(0). Both versions of a
     /// column have the same bounds where theory says that they are equal.
     pub influence: InfluenceCoefficients<Interval>,
-    /// Bounds of the couples of guided sliders, in the order of the joints.
+    /// The numbers of what follows from the forces, with a row for the couple of each guided slider (N m), for the
+    /// acceleration of each coordinate (m/s^2 or rad/s^2), and for the power of all loads and weights, and with friction, of
+    /// both together (W).
+    pub(super) numbers: BlockNumbers<Interval>,
+    /// The guided sliders, in the order of the joints.
     pub(crate) couples: Vec<EnclosedCouple>,
-    /// Bounds of the accelerations of the coordinates (m/s^2 or rad/s^2).
-    pub(crate) accelerations: Vec<EnclosedOutput>,
-    /// Bounds of the power of all loads and weights, and with friction, of both together (W).
-    pub(crate) power: EnclosedOutput,
 }
 
-/// Bounds of what an output is made of that is affine in the friction forces and couples:
-/// `C = C(0) + sum_k gamma_k F_k + sum_j gamma_j |R_j|`.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct EnclosedOutput {
-    /// `C(0)`, its value without friction.
-    pub(crate) frictionless: Interval,
-    /// `gamma_k`, what a unit friction force of each contact adds, at either of its faces.
-    pub(crate) influence: BySide<Vec<Interval>>,
-    /// The same for the friction of the preload.
-    pub(crate) influence_preload: BySide<Vec<Interval>>,
-    /// What a unit normal force of each cut contact adds, with the contact: of redundant guides.
-    pub(crate) self_stress: Vec<(usize, Interval)>,
-    /// What the opening of each contact that may lift off adds, with the contact.
-    pub(crate) openings: Vec<(usize, Interval)>,
-    /// What a unit force of each hinge that turns with friction adds by its couple.
-    pub(crate) hinges: Vec<Interval>,
-}
-
-/// Bounds of the couple of a guided slider.
+/// Bounds of a guided slider.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct EnclosedCouple {
     /// The slider's only contact, from 0.
     pub(crate) contact: usize,
+    /// The distance of its faces (m).
+    pub(super) height: Interval,
     /// Half of the length of its pressed face (m).
-    pub(crate) half_length: Interval,
-    /// The couple (N m); friction at either face of a contact adds the same but for the slider's own contact.
-    pub(crate) couple: EnclosedOutput,
-}
-
-impl EnclosedOutput {
-    /// An output to which friction at both faces of a contact adds the same.
-    pub(super) fn of_either_face(
-        frictionless: Interval,
-        influence: Vec<Interval>,
-        hinges: Vec<Interval>,
-    ) -> Self {
-        let both = BySide { positive: influence.clone(), negative: influence };
-        let influence_preload = both.clone();
-        let (self_stress, openings) = (Vec::new(), Vec::new());
-        Self { frictionless, influence_preload, influence: both, self_stress, openings, hinges }
-    }
+    pub(super) half_length: Interval,
 }
 
 /// Whether some guided slider tips.
@@ -79,12 +47,17 @@ impl EnclosedOutputs {
     /// # Panics
     /// If `pattern` does not have one entry for each contact, or `y` one for each contact and hinge.
     pub fn tipping(&self, pattern: &[ContactState], y: &[Interval]) -> Tipping {
-        let worst = self.couples.iter().map(|couple| self.tipping_of(couple, pattern, y));
-        worst.max().unwrap_or(Tipping::Never)
+        let of_couple = |(row, couple)| self.tipping_of((row, couple), pattern, y);
+        self.couples.iter().enumerate().map(of_couple).max().unwrap_or(Tipping::Never)
     }
 
-    fn tipping_of(&self, couple: &EnclosedCouple, pattern: &[ContactState], y: &[Interval]) -> Tipping {
-        let size = self.output(&couple.couple, pattern, y).abs();
+    fn tipping_of(
+        &self,
+        (row, couple): (usize, &EnclosedCouple),
+        pattern: &[ContactState],
+        y: &[Interval],
+    ) -> Tipping {
+        let size = self.output(row, pattern, y).abs();
         let k = couple.contact;
         let pressure = if pattern[k] == ContactState::Gap { Interval::ZERO } else { y[k] };
         let slack = couple.half_length * pressure - size;
@@ -97,39 +70,36 @@ impl EnclosedOutputs {
         }
     }
 
-    /// Bounds of an output in a state with these bounds of `y_k = |N_k|`, or of the share of a contact in its
-    /// gap, then of `|R_j|`: `C(0) + sum_k gamma_k F_k + sum_j gamma_j |R_j|`, and what the normal forces of cut
-    /// contacts add.
-    ///
-    /// # Panics
-    /// As [`Self::tipping`].
-    pub(crate) fn output(
+    /// Bounds of the acceleration of a coordinate in a state, as [`Self::tipping`] has it.
+    pub(crate) fn acceleration(
         &self,
-        output: &EnclosedOutput,
+        coordinate: usize,
         pattern: &[ContactState],
         y: &[Interval],
     ) -> Interval {
-        let terms = (0..pattern.len()).map(|k| self.of_friction(output, k, pattern[k], y[k]));
-        let of_normal_force = |&(k, stress): &(usize, Interval)| {
-            pattern[k].side().map_or(Interval::ZERO, |side| stress * y[k] * Interval::point(side.sign()))
-        };
-        let stresses = output.self_stress.iter().map(of_normal_force);
-        let open = output.openings.iter().filter(|(k, _)| pattern[*k] == ContactState::Negative);
-        let openings = open.map(|&(k, opening)| opening * y[k]);
-        let hinges = output.hinges.iter().enumerate().map(|(hinge, unit)| *unit * y[pattern.len() + hinge]);
-        terms.chain(stresses).chain(openings).chain(hinges).fold(output.frictionless, |sum, term| sum + term)
+        self.output(self.couples.len() + coordinate, pattern, y)
     }
 
-    /// `gamma_k F_k` with `F_k = (mu_k |N_k| + F_k0) s_k`, eq. (2); in a gap `F_k0` is shared by both faces.
-    fn of_friction(&self, output: &EnclosedOutput, k: usize, state: ContactState, y: Interval) -> Interval {
-        let influence = &self.influence;
-        let preload = |side: Side| output.influence_preload.get(side)[k] * influence.preload.get(side)[k];
-        let force = if let Some(side) = state.side() {
-            output.influence.get(side)[k] * influence.mu.get(side)[k] * y + preload(side)
-        } else {
-            let [positive, negative] = Side::BOTH.map(preload);
-            negative + y * (positive - negative)
+    /// Bounds of the power of all loads and weights, and of that which friction leaves of it in a state.
+    pub(crate) fn power(&self, pattern: &[ContactState], y: &[Interval]) -> [Interval; 2] {
+        let row = self.numbers.load.len() - 1;
+        [self.numbers.load[row], self.output(row, pattern, y)]
+    }
+
+    /// Bounds of an output, `o + d_o^sigma + H_o^sigma w`, in a state.
+    fn output(&self, row: usize, pattern: &[ContactState], y: &[Interval]) -> Interval {
+        let BlockNumbers { response, jumps, load } = &self.numbers;
+        let of_contact = |(k, state): (usize, &ContactState)| {
+            let jump = |side: Side| jumps.get(side)[(row, k)];
+            match state.side() {
+                Some(side) => response.get(side)[(row, k)] * y[k] + jump(side),
+                None => jump(Side::Negative) + y[k] * (jump(Side::Positive) - jump(Side::Negative)),
+            }
         };
-        force * Interval::point(influence.velocity_signs[k])
+        let of_hinge = |hinge: usize| response.positive[(row, hinge)] * y[hinge];
+        let terms = pattern.iter().enumerate().map(of_contact);
+        terms
+            .chain((pattern.len()..response.positive.ncols()).map(of_hinge))
+            .fold(load[row], |sum, term| sum + term)
     }
 }

@@ -4,13 +4,13 @@
 //! values and between those where their numbers differ, and every end is located to machine precision
 //! ([`crate::modes::branches`]). Over the radius of the only friction circle all ends are in closed form.
 
-use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
+use super::found::{Elsewhere, Gap, Method, ModesFound, SameEnds, cells_between};
 use super::varied::Varied;
 use crate::fault::{FaultKind, Faults};
 use crate::mechanism::Mechanism;
 use crate::modes::SearchOptions;
 use crate::modes::branches::{Branch, BranchOptions, Branches, NoInstance, branches, over_radius};
-use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval, cells, counts_in, is_same_end};
+use crate::modes::existence::{Existence, ExistenceOptions, ModeInterval, counts_in};
 use crate::progress::Work;
 use crate::scan::evenly;
 
@@ -126,29 +126,13 @@ fn modes_found(
     let faults = |at: f64| varied.block_instance(at, circles).err().unwrap_or_default();
     let gaps: Vec<Gap> =
         gaps.iter().map(|gap| Gap { from: gap.from, to: gap.to, faults: faults(gap.inside) }).collect();
-    let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-    let gap_ends = gaps.iter().flat_map(|gap| [gap.from, gap.to]);
-    let is_same = |next: f64, kept: f64| is_same_end(next, kept) || !is_long([kept, next]);
-    let mut cells = cells(ends.chain(gap_ends).chain(options.range), is_same);
-    cells.retain(|[from, to]| {
-        let middle = f64::midpoint(*from, *to);
-        !gaps.iter().any(|gap| gap.from < middle && middle < gap.to)
-    });
+    let is_same = |next: f64, kept: f64| same_ends.are_one(kept, next);
+    let mut cells = cells_between(&existence.modes, &gaps, options.range, is_same);
+    cells.retain(|cell| Gap::none_covers(&gaps, *cell));
     let counts = counts_in(&existence, &cells, &|modes, _| modes.len());
     let elsewhere = if method == Method::Hinge { Elsewhere::ClosedForm } else { Elsewhere::Sampled(0.0) };
-    ModesFound {
-        known: vec![Knowledge::unproven(elsewhere); counts.len()],
-        existence,
-        counts,
-        gaps,
-        method,
-        tried,
-        same_ends,
-        starts: Vec::new(),
-        between_faces: SingleValues::Impossible,
-        branches,
-        circles: circles.to_vec(),
-    }
+    let found = ModesFound::new((existence, counts), elsewhere, same_ends);
+    ModesFound { gaps, method, tried, branches, circles: circles.to_vec(), ..found }
 }
 
 /// Whether what moves with friction has no sense, or what else is at fault.

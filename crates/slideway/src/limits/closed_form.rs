@@ -5,7 +5,7 @@
 //! line between mode problems that were made at its ends: on one line over all of it small values would drown
 //! in the rounding of great ones.
 
-use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
+use super::found::{Elsewhere, Gap, Method, ModesFound, SameEnds};
 use super::varied::Varied;
 use crate::expression::Degree;
 use crate::modes::ContactState;
@@ -61,19 +61,12 @@ pub(super) fn closed_form(
     };
     join(&mut all, [from, to], &cause);
     let method = if changes { Method::ClosedForm } else { Method::Same { at_rest: dependence.at_rest } };
-    let known = Knowledge::unproven(Elsewhere::ClosedForm);
+    let same_ends = SameEnds::zeros(options.range, [from, to]);
     Ok(Some(ModesFound {
-        existence: all,
-        known: vec![known; numbers.len()],
-        counts: numbers,
         gaps: outside(varied, options.range, [from, to]),
         method,
         tried: pieces.into_iter().flatten().collect(),
-        same_ends: SameEnds::zeros(options.range, [from, to]),
-        starts: Vec::new(),
-        between_faces: SingleValues::Impossible,
-        branches: Vec::new(),
-        circles: Vec::new(),
+        ..ModesFound::new((all, numbers), Elsewhere::ClosedForm, same_ends)
     }))
 }
 

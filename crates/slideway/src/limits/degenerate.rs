@@ -4,9 +4,9 @@
 //! rounded numbers do not tell which modes are one solution, and whether there are infinitely many between them. Between
 //! the ends of modes that is the same everywhere: the certified search tells it at one value.
 
-use super::found::{Elsewhere, Knowledge, ModesFound, PATTERNS};
+use super::found::{Elsewhere, Knowledge, ModesFound, PATTERNS, cells_within};
 use super::varied::Varied;
-use crate::modes::existence::{CountInterval, EndCause, ExistenceOptions, ModeInterval, cells, is_same_end};
+use crate::modes::existence::{CountInterval, EndCause, ExistenceOptions, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Solution, SolveReport, Status};
 use crate::solve::pattern;
@@ -21,10 +21,8 @@ pub(super) fn recount(varied: &Varied, greatest: Option<f64>, found: &mut ModesF
     let mut all_known: Vec<Knowledge> = Vec::new();
     for (interval, known) in found.counts.iter().zip(&found.known) {
         let whole = [interval.from, interval.to];
-        let ends = found.existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-        let inside = ends.filter(|end| whole[0] < *end && *end < whole[1]).chain(whole);
-        let same = |next, kept| is_same_end(next, kept) || !found.same_ends.are_two(kept, next);
-        for cell in cells(inside, same) {
+        let same = |next, kept| found.same_ends.are_one(kept, next);
+        for cell in cells_within(&found.existence.modes, whole, same) {
             let at = f64::midpoint(cell[0], cell[1]);
             let is_present = |mode: &ModeInterval| mode.from.at < at && at < mode.to.at;
             let modes = &found.existence.modes;

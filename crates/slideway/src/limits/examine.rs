@@ -1,10 +1,10 @@
 //! Proofs of the numbers of solutions between the ends of modes: the certified search for whole intervals of
 //! what is varied, which are halved while that helps.
 
-use super::found::{Elsewhere, Knowledge, Method, ModesFound};
+use super::found::{Elsewhere, Knowledge, Method, ModesFound, cells_within};
 use super::varied::Varied;
 use crate::modes::SearchOptions;
-use crate::modes::existence::{CountInterval, Existence, ExistenceOptions, cells};
+use crate::modes::existence::{CountInterval, Existence, ExistenceOptions};
 use crate::progress::{Progress, Work};
 use crate::solve::SolveOptions;
 use std::collections::VecDeque;
@@ -99,8 +99,6 @@ impl<'v> Examiner<'v> {
     /// The cells of an interval between the ends of modes.
     fn cells(&self, index: usize, interval: &CountInterval, existence: &Existence) -> Vec<Cell> {
         let whole = [interval.from, interval.to];
-        let ends = existence.modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-        let inside = ends.filter(|end| whole[0] < *end && *end < whole[1]);
         let near = |next: f64, kept: f64| next - kept <= MARGIN * margin(kept, whole);
         let cell = |bounds: [f64; 2]| {
             let room = |end: f64| if self.options.range.contains(&end) { 0.0 } else { margin(end, bounds) };
@@ -114,7 +112,7 @@ impl<'v> Examiner<'v> {
                 contradicted: None,
             }
         };
-        cells(inside.chain(whole), near).into_iter().map(cell).collect()
+        cells_within(&existence.modes, whole, near).into_iter().map(cell).collect()
     }
 
     /// Searches the cells, then halves of what is left open, and so on.

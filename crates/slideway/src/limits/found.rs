@@ -2,7 +2,9 @@
 
 use crate::fault::Faults;
 use crate::modes::branches::Branch;
-use crate::modes::existence::{CountInterval, Existence, is_same_end, nothing_is_left};
+use crate::modes::existence::{
+    CountInterval, Existence, ModeInterval, cells, ends, is_same_end, nothing_is_left,
+};
 use crate::scan::HALVINGS;
 
 /// Bisected ends nearer to each other than this share of the range are one.
@@ -32,10 +34,31 @@ pub(crate) struct ModesFound {
 }
 
 impl ModesFound {
+    /// Modes with these numbers of solutions in between, of which nothing is proven; from values that were tried, unless more
+    /// is said.
+    pub(super) fn new(
+        (existence, counts): (Existence, Vec<CountInterval>),
+        elsewhere: Elsewhere,
+        same_ends: SameEnds,
+    ) -> Self {
+        Self {
+            known: vec![Knowledge { proven: Vec::new(), elsewhere }; counts.len()],
+            existence,
+            counts,
+            starts: Vec::new(),
+            gaps: Vec::new(),
+            method: Method::Bracketing,
+            tried: Vec::new(),
+            same_ends,
+            between_faces: SingleValues::Impossible,
+            branches: Vec::new(),
+            circles: Vec::new(),
+        }
+    }
+
     /// Whether there is no solution just beyond the end of a mode, as far as numbers of solutions are known.
     pub(super) fn nothing_is_left(&self, end: f64, begins: bool) -> bool {
-        let same = |next: f64, kept: f64| is_same_end(next, kept) || !self.same_ends.are_two(kept, next);
-        nothing_is_left(&self.counts, end, begins, same)
+        nothing_is_left(&self.counts, end, begins, |next, kept| self.same_ends.are_one(kept, next))
     }
 }
 
@@ -70,6 +93,11 @@ impl SameEnds {
     /// Whether what lies between two ends has an extent.
     pub(super) fn are_two(&self, from: f64, to: f64) -> bool {
         to - from > self.within
+    }
+
+    /// Whether two ends are one, or as near to each other as zeros of determinants that are one.
+    pub(super) fn are_one(&self, from: f64, to: f64) -> bool {
+        is_same_end(to, from) || !self.are_two(from, to)
     }
 
     /// Returns an end as it is reported: as the end of the range or the zero that it is the same as.
@@ -143,20 +171,38 @@ pub(crate) struct Gap {
     pub(crate) faults: Faults,
 }
 
+/// The cells between the ends of modes and of gaps in a range.
+pub(super) fn cells_between(
+    modes: &[ModeInterval],
+    gaps: &[Gap],
+    range: [f64; 2],
+    same: impl Fn(f64, f64) -> bool,
+) -> Vec<[f64; 2]> {
+    cells(ends(modes).chain(gaps.iter().flat_map(|gap| [gap.from, gap.to])).chain(range), same)
+}
+
+/// The cells between the ends of modes within an interval, and its own.
+pub(super) fn cells_within(
+    modes: &[ModeInterval],
+    [from, to]: [f64; 2],
+    same: impl Fn(f64, f64) -> bool,
+) -> Vec<[f64; 2]> {
+    cells(ends(modes).filter(|end| from < *end && *end < to).chain([from, to]), same)
+}
+
 /// The widest part of an interval that is not proven; all of it if nothing is.
 pub(super) fn left_out([from, to]: [f64; 2], proven: &[[f64; 2]]) -> f64 {
     let ends: Vec<f64> = std::iter::once(from).chain(proven.iter().flatten().copied()).chain([to]).collect();
     ends.chunks_exact(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
 
-impl Knowledge {
-    /// Before anything is proven.
-    pub(crate) fn unproven(elsewhere: Elsewhere) -> Self {
-        Self { proven: Vec::new(), elsewhere }
-    }
-}
-
 impl Gap {
+    /// Whether the middle of a cell is within none of these.
+    pub(super) fn none_covers(gaps: &[Self], [from, to]: [f64; 2]) -> bool {
+        let middle = f64::midpoint(from, to);
+        !gaps.iter().any(|gap| gap.from < middle && middle < gap.to)
+    }
+
     /// The first reason, in words.
     pub(crate) fn reason(&self) -> String {
         self.faults.sorted().first().map_or_else(String::new, |fault| fault.kind.of_range())

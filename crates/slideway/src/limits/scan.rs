@@ -4,13 +4,13 @@
 //! Evenly spaced values come first, then values ever closer to where there is no mode problem, then values
 //! inside every interval between two ends that has none yet, until no further mode turns up.
 
-use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
+use super::found::{Elsewhere, Gap, ModesFound, SameEnds, cells_between};
 use super::varied::Varied;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::modes::ContactState;
 use crate::modes::existence::{
     EndCause, Existence, ExistenceOptions, Limit, ModeEnd, ModeInterval, ModeProblemLine, TooManyModes,
-    cells, counts_in,
+    counts_in,
 };
 use crate::progress::Work;
 use crate::scan::{bisect, evenly, runs, samples};
@@ -67,28 +67,15 @@ impl Scanner<'_> {
         let open = lines.map(|line| line.open.clone()).next().unwrap_or_default();
         let existence = Existence { modes, open, ..Existence::default() };
         let gaps = gaps(&places);
-        let is_covered = |[from, to]: &[f64; 2]| {
-            let middle = f64::midpoint(*from, *to);
-            !gaps.iter().any(|gap| gap.from < middle && middle < gap.to)
-        };
-        let cells: Vec<[f64; 2]> =
-            self.cells(&existence.modes, &gaps).into_iter().filter(is_covered).collect();
+        let mut cells = self.cells(&existence.modes, &gaps);
+        cells.retain(|cell| Gap::none_covers(&gaps, *cell));
         let counts = counts_in(&existence, &cells, &|modes, at| {
             self.line(at).map_or(modes.len(), |line| line.distinct(modes, 0.0))
         });
-        let known = Knowledge::unproven(Elsewhere::Sampled(0.0));
         Ok(ModesFound {
-            existence,
-            known: vec![known; counts.len()],
-            counts,
             gaps,
-            method: Method::Bracketing,
             tried: places.iter().map(|place| place.at).collect(),
-            same_ends: self.same_ends(),
-            starts: Vec::new(),
-            between_faces: SingleValues::Impossible,
-            branches: Vec::new(),
-            circles: Vec::new(),
+            ..ModesFound::new((existence, counts), Elsewhere::Sampled(0.0), self.same_ends())
         })
     }
 
@@ -161,10 +148,8 @@ impl Scanner<'_> {
     }
 
     fn cells(&self, modes: &[ModeInterval], gaps: &[Gap]) -> Vec<[f64; 2]> {
-        let ends = modes.iter().flat_map(|mode| [mode.from.at, mode.to.at]);
-        let gaps = gaps.iter().flat_map(|gap| [gap.from, gap.to]);
         let same = self.same_ends();
-        cells(ends.chain(gaps).chain(self.options.range), |next, kept| !same.are_two(kept, next))
+        cells_between(modes, gaps, self.options.range, |next, kept| !same.are_two(kept, next))
     }
 
     fn same_ends(&self) -> SameEnds {

@@ -2,7 +2,7 @@
 //! and those at rest that may lift off have states of their own, so that no mode ends at a zero of a determinant. The answers at
 //! evenly spaced values are compared, and what changes between them is bisected.
 
-use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
+use super::found::{Elsewhere, Gap, ModesFound, SameEnds};
 use super::varied::Varied;
 use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};
@@ -34,20 +34,10 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
             Err(faults) => gaps.push(Gap { from, to, faults }),
         }
     }
-    let known = Knowledge::unproven(Elsewhere::Sampled((to - from) / STEPS as f64));
-    Some(ModesFound {
-        existence: Existence::default(),
-        known: vec![known; counts.len()],
-        counts,
-        starts,
-        gaps,
-        method: Method::Bracketing,
-        tried: tried.iter().map(|sample| sample.at).collect(),
-        same_ends,
-        between_faces: SingleValues::Impossible,
-        branches: Vec::new(),
-        circles: Vec::new(),
-    })
+    let elsewhere = Elsewhere::Sampled((to - from) / STEPS as f64);
+    let tried = tried.iter().map(|sample| sample.at).collect();
+    let found = ModesFound::new((Existence::default(), counts), elsewhere, same_ends);
+    Some(ModesFound { starts, gaps, tried, ..found })
 }
 
 /// The answer at a value.

@@ -552,7 +552,7 @@ impl<'a> Answer<'a> {
     /// Proven bounds of the acceleration of a coordinate.
     fn acceleration_bounds(&self, state: &State<'_>, coordinate: usize) -> Option<[f64; 2]> {
         let (enclosed, unknowns) = self.enclosed_state(state)?;
-        let bounds = enclosed.output(&enclosed.accelerations[coordinate], state.pattern, unknowns);
+        let bounds = enclosed.acceleration(coordinate, state.pattern, unknowns);
         bounds.magnitude().is_finite().then_some([bounds.lower(), bounds.upper()])
     }
 
@@ -560,9 +560,8 @@ impl<'a> Answer<'a> {
     fn friction_exceeds_loads(&self, state: &State<'_>) -> bool {
         let bounds = self.enclosed_state(state);
         let exceeds = |(enclosed, unknowns): (&EnclosedOutputs, &[Interval])| {
-            let power = &enclosed.power;
-            let left = enclosed.output(power, state.pattern, unknowns);
-            power.frictionless.lower() > 0.0 && left.upper() < 0.0
+            let [loads, left] = enclosed.power(state.pattern, unknowns);
+            loads.lower() > 0.0 && left.upper() < 0.0
         };
         self.mechanism.drives.is_empty() && bounds.is_some_and(exceeds)
     }
