@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[1]
 TEST_FILE = re.compile(r"(^|/)(tests?|test_[a-z_]+|random_numbers)(\.rs$|/)")
 # Modules that know elements, laws and problems; all others are above them.
 BELOW = {"model", "drawing", "mechanism", "configuration", "kinetics", "influence", "law", "problem", "gallery", "ids", "units", "fault"}
-ELEMENT = re.compile(r"hinge|sharing|shared|press_fit|friction_circle|rough")
+ELEMENT = re.compile(r"hinge|sharing|shared|press_fit|friction_circle|(?<!tho)rough")
 # Plain data by design: what is asked, what is answered, what a model holds.
 DATA = re.compile(r"/(report|options|model|fault|raw_problem/report)[^/]*(/|\.rs$)|_report\.rs$")
 

@@ -19,6 +19,14 @@ pub fn evenly([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> +
         .map(move |step| if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 })
 }
 
+/// (sqrt(5) - 1) / 2, by which each step of a golden section search shrinks its bracket.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// The places within a bracket at which a golden section search looks: one of them is also one within the next bracket.
+pub fn golden_section([low, high]: [f64; 2]) -> [f64; 2] {
+    [high - GOLDEN * (high - low), low + GOLDEN * (high - low)]
+}
+
 /// Neighbouring numbers between two values, of which only the first is inside.
 ///
 /// ```

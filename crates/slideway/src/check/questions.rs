@@ -1,6 +1,6 @@
 //! Which questions a model can answer in its state.
 
-use super::Finding;
+use super::{Finding, Question};
 use crate::configuration::Configuration;
 use crate::fault::{FaultKind, Faults};
 use crate::mechanism::Mechanism;
@@ -8,22 +8,7 @@ use crate::model::Model;
 use crate::motion::{SimulateOptions, Thorough, simulate_with};
 use crate::progress::{Progress, Work};
 use crate::standstill::can_hold;
-use serde::Serialize;
 use std::ops::ControlFlow;
-
-/// A question, and whether the model can answer it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[non_exhaustive]
-pub struct Question {
-    /// The command that asks it: "solve" (and with it "limits", "size", "sweep", "map"), "drive", "hold", "simulate".
-    pub name: &'static str,
-    /// True if nothing stands in its way.
-    pub ready: bool,
-    /// Everything for which it would be refused.
-    pub findings: Vec<Finding>,
-    /// Its needs in a few words, if that is little: "a rate".
-    pub needs: Vec<&'static str>,
-}
 
 impl Question {
     fn new(name: &'static str, faults: &Faults) -> Self {

@@ -6,14 +6,13 @@ use crate::limits::ModesFound;
 use crate::modes::ContactState;
 use crate::modes::existence::ModeInterval;
 use crate::report::Verdict;
+use crate::scan::golden_section;
 
 /// Rows nearer to a blow-up than this share of the range give way to it.
 pub(super) const SAME_ROW: f64 = 1e-9;
 
 /// Steps of the golden section search: the last bracket is within rounding of the first.
 const STEPS: usize = 75;
-/// 2/(1 + sqrt 5), by which each step shrinks the bracket.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The greatest magnitude of each drive's effort in any mode: of the evenly spaced `places` the best, then refined between its
 /// neighbours. Nothing where an effort grows without bound, or where there is not one state everywhere that a mechanism settles
@@ -67,16 +66,15 @@ pub(super) fn peaks(
 
 /// Where between these ends a function with one hump is greatest: by golden section, or `known` if nothing exceeds the value there.
 fn greatest([mut low, mut high]: [f64; 2], known: f64, value: impl Fn(f64) -> f64) -> f64 {
-    let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
     let found = |at: f64| (at, value(at));
-    let mut pair = inner(low, high).map(found);
+    let mut pair = golden_section([low, high]).map(found);
     for _ in 0..STEPS {
         if pair[0].1 > pair[1].1 {
             high = pair[1].0;
-            pair = [found(inner(low, high)[0]), pair[0]];
+            pair = [found(golden_section([low, high])[0]), pair[0]];
         } else {
             low = pair[0].0;
-            pair = [pair[1], found(inner(low, high)[1])];
+            pair = [pair[1], found(golden_section([low, high])[1])];
         }
     }
     pair.into_iter().fold(found(known), |best, one| if one.1 > best.1 { one } else { best }).0

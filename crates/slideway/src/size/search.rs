@@ -4,12 +4,10 @@
 use super::margin::{Margin, MarginQuestion};
 use crate::fault::Faults;
 use crate::progress::Work;
-use crate::scan::{bisect, evenly, runs, samples};
+use crate::scan::{bisect, evenly, golden_section, runs, samples};
 
 /// Steps towards the extremum of a dip or hump.
 const GOLDEN_STEPS: usize = 40;
-/// (sqrt(5) - 1) / 2
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Margins on both sides of a crossing that differ by more than this share of the wanted one jump there.
 const JUMP: f64 = 1e-6;
 
@@ -122,8 +120,7 @@ impl MarginSearch<'_> {
         if is_out_of_reach(ends, middle, GOLDEN_STEPS) {
             return None;
         }
-        let inner = |low: f64, high: f64| [high - GOLDEN * (high - low), low + GOLDEN * (high - low)];
-        let mut pair = inner(low, high).map(|at| self.place(at));
+        let mut pair = golden_section([low, high]).map(|at| self.place(at));
         for left in (0..GOLDEN_STEPS).rev() {
             if let Some(crossed) = pair.iter().find(|place| self.is_met(place) != is_met) {
                 return crossed.margin.map(|_| *crossed);
@@ -138,7 +135,7 @@ impl MarginSearch<'_> {
             if is_out_of_reach(ends, if is_first { one? } else { other? }, left) {
                 return None;
             }
-            let next = inner(low, high);
+            let next = golden_section([low, high]);
             pair = if is_first { [self.place(next[0]), pair[0]] } else { [pair[1], self.place(next[1])] };
         }
         None
