@@ -14,7 +14,7 @@ use crate::changes::changes;
 use crate::plot::figure::headline;
 use crate::plot::frame::{FrameAxis, Placed, draw_axes};
 use crate::plot::svg::{Svg, coordinate, wrapped};
-use crate::plot::{SMALL, TITLE, hatching_fill, hatchings};
+use crate::plot::{MARGIN, SMALL, TITLE, hatching_fill, hatchings};
 use crate::theme::Theme;
 use colours::{Paint, paint};
 use regions::regions;
@@ -26,8 +26,6 @@ const HEIGHT: f64 = 400.0;
 const WIDTHS: [f64; 2] = [200.0, 640.0];
 /// Width of the legend's texts (px).
 const LEGEND: f64 = 300.0;
-/// Space around everything (px).
-const MARGIN: f64 = 14.0;
 /// Size of a sample of the legend, distance of lines (px).
 const SAMPLE: f64 = 22.0;
 const LINE: f64 = 18.0;

@@ -5,14 +5,13 @@ use crate::coordinate::{NotFinite, coordinate, finished, tenths, thousandths};
 use crate::drawing::svg::{Colour, class_name, markup, rules};
 use crate::drawing::{Class, Element, Point, Shape, nice, quantity, sample};
 use crate::escaped;
+use crate::plot::TITLE;
 use crate::plot::svg::wrapped;
 use crate::typeface::{STACK, width};
 use std::fmt::Write;
 
 /// Room for the title above the drawing (drawing units).
 const HEAD: f64 = 38.0;
-/// Size of the title.
-const TITLE: f64 = 17.0;
 /// From the left edge to the words (drawing units).
 const INDENT: f64 = 12.0;
 /// How far the background of a frame that stands still goes beyond its edges (drawing units).

@@ -68,7 +68,7 @@ const STACKED_HEIGHT: f64 = 300.0;
 const FEW: usize = 3;
 const LOW_HEIGHT: f64 = 200.0;
 /// Space around everything (px).
-const MARGIN: f64 = 14.0;
+pub(crate) const MARGIN: f64 = 14.0;
 /// Font sizes (px).
 pub(crate) const TITLE: f64 = 17.0;
 const TEXT: f64 = 14.0;

@@ -1,6 +1,6 @@
 //! Curves that cannot be told apart: they are drawn as one line in the colours of all.
 
-use super::clip::simplified;
+use super::clip::{self, simplified};
 use super::figure::Curve;
 use std::collections::HashMap;
 
@@ -209,17 +209,9 @@ impl Neighbours {
         let cells = (-1..=1).flat_map(move |dx| (-1..=1).map(move |dy| [i + dx, j + dy]));
         let found = cells.filter_map(|cell| self.cells.get(&cell)).flatten();
         let pieces = found.map(move |(track, piece)| (*track, &tracks[*track].pieces[*piece]));
-        pieces.filter(move |(_, piece)| is_near(place, piece.ends, distance))
+        pieces
+            .filter(move |(_, Piece { ends: [from, to], .. })| clip::distance(place, *from, *to) <= distance)
     }
-}
-
-fn is_near(place: [f64; 2], [from, end]: [[f64; 2]; 2], distance: f64) -> bool {
-    let along = [end[0] - from[0], end[1] - from[1]];
-    let to = [place[0] - from[0], place[1] - from[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
-    let product = along[0] * to[0] + along[1] * to[1];
-    let share = if square > 0.0 { (product / square).clamp(0.0, 1.0) } else { 0.0 };
-    (to[0] - share * along[0]).hypot(to[1] - share * along[1]) <= distance
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 use super::figure::{Axis, Bar, Figure, Panel, headline};
 use super::limits;
+use super::sweep::Series;
 use crate::drawing::number;
 use slideway::limits::Quantity;
 use slideway::sweep::{Rows, Sweep, SweepState};
@@ -28,14 +29,6 @@ pub struct SamplesPlot {
     counts: Vec<[Counts; 2]>,
 }
 
-/// A plotted column.
-#[derive(Debug, Clone)]
-struct Series {
-    column: usize,
-    name: String,
-    unit: &'static str,
-}
-
 /// The counts of some rows for the histograms.
 #[derive(Debug, Clone)]
 pub struct SamplesPart {
@@ -45,14 +38,7 @@ pub struct SamplesPart {
 impl SamplesPlot {
     /// None if the sweep is not one of samples, or the model has nothing of this quantity.
     pub fn new(sweep: &Sweep, quantity: Quantity) -> Option<Self> {
-        let prefix = limits::column_prefix(quantity);
-        let columns = sweep.columns().iter().enumerate();
-        let series: Vec<Series> = columns
-            .filter_map(|(column, of)| {
-                let name = of.name.strip_prefix(prefix)?.to_owned();
-                Some(Series { column, name, unit: of.unit })
-            })
-            .collect();
+        let series = Series::of(sweep, quantity);
         let is_drawn = !sweep.has_branches() && !series.is_empty();
         is_drawn.then(|| Self {
             quantity,

@@ -56,10 +56,23 @@ pub struct SweepPlot {
 
 /// A plotted column.
 #[derive(Debug, Clone)]
-struct Series {
-    column: usize,
-    name: String,
-    unit: &'static str,
+pub(super) struct Series {
+    pub(super) column: usize,
+    pub(super) name: String,
+    pub(super) unit: &'static str,
+}
+
+impl Series {
+    /// The columns of a quantity in the rows of a sweep.
+    pub(super) fn of(sweep: &Sweep, quantity: Quantity) -> Vec<Self> {
+        let prefix = limits::column_prefix(quantity);
+        let columns = sweep.columns().iter().enumerate();
+        let series = columns.filter_map(|(column, of)| {
+            let name = of.name.strip_prefix(prefix)?.to_owned();
+            Some(Self { column, name, unit: of.unit })
+        });
+        series.collect()
+    }
 }
 
 /// Takes of rows what a plot needs; to be used in parallel.
@@ -214,13 +227,9 @@ impl SweepPlot {
     /// Strokes tell of attainability, so the sweep has to examine it.
     pub fn new(sweep: &Sweep, quantity: Quantity) -> Option<Self> {
         let line = sweep.line()?;
-        let prefix = limits::column_prefix(quantity);
-        let columns = sweep.columns().iter().enumerate().skip(1);
-        let series = columns.filter_map(|(column, of)| {
-            let name = of.name.strip_prefix(prefix)?.to_owned();
-            Some(Series { column, name, unit: of.unit })
-        });
-        let series: Vec<Series> = series.collect();
+        let mut series = Series::of(sweep, quantity);
+        // The first column is what the line is drawn over.
+        series.retain(|series| series.column > 0);
         (!series.is_empty()).then(|| Self {
             line,
             quantity,

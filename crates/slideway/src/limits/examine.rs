@@ -179,11 +179,8 @@ impl<'v> Examiner<'v> {
             return None;
         }
         let greatest = self.options.greatest_normal_force;
-        let (counts, nodes) = if self.circles.is_empty() {
-            self.varied.certain_counts(part, greatest, &self.solve, self.work)
-        } else {
-            self.varied.certain_block_counts((part, self.circles), greatest, &self.solve, self.work)
-        };
+        let part = (part, self.circles);
+        let (counts, nodes) = self.varied.certain_counts(part, greatest, &self.solve, self.work);
         self.left = self.left.saturating_sub(1 + nodes / NODES);
         counts
     }

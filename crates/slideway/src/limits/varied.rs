@@ -8,7 +8,7 @@ use crate::interval::Interval;
 use crate::kinetics::coordinate_rows;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::{Dependence, FRICTION, Model, Setting, SettingKind, Value};
-use crate::modes::blocks::{self, BlockProblem, BlockResult};
+use crate::modes::blocks::{self, BlockProblem, BlockResult, BlockSolution};
 use crate::modes::branches::{Branch, BranchForces, Instance, NoInstance};
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{OpenContacts, search};
@@ -16,7 +16,7 @@ use crate::problem::TurningHinge;
 use crate::progress::{Progress, Work};
 use crate::report::{Proof, Solution, SolveReport};
 use crate::solve::{
-    Parts, SolveOptions, Stages, block_instance, certain_counts, check_none_stands, solve_in,
+    Parts, SolveOptions, Stages, block_instance, certain_counts, check_none_stands, counted, solve_in,
     states_between_faces, turning_hinges, unknowns_of,
 };
 use crate::units::Unit;
@@ -223,32 +223,24 @@ impl Varied {
 
     /// The numbers of solutions and of preload-gap states that are proven for all values between two, if they
     /// are, and what that took: nodes of the search, which ends with the work. States with a normal force
-    /// above `greatest` do not count.
+    /// above `greatest` do not count. Beside friction in the hinges of these circles nothing is proven of guided sliders,
+    /// which may tip.
     pub(crate) fn certain_counts(
-        &self,
-        [from, to]: [f64; 2],
-        greatest: Option<f64>,
-        options: &SolveOptions,
-        work: Work<'_>,
-    ) -> (Option<[usize; 2]>, u64) {
-        let enclosed = self.enclosed([from, to], |model, uncertain, stages| {
-            enclosure_within(model, uncertain, (&stages.mechanism, &stages.configuration), work).ok()
-        });
-        let Some(enclosed) = enclosed else { return (None, 1) };
-        let mut goes_on = |_: &Progress| work.flow();
-        let result = search(&enclosed.problem, &options.search, &mut goes_on);
-        (certain_counts(&enclosed, &result, options, greatest), result.nodes())
-    }
-
-    /// Proves numbers as [`Self::certain_counts`] does, with friction in the hinges of these circles. Nothing
-    /// is proven of guided sliders, which may tip.
-    pub(crate) fn certain_block_counts(
         &self,
         (bounds, circles): ([f64; 2], &[usize]),
         greatest: Option<f64>,
         options: &SolveOptions,
         work: Work<'_>,
     ) -> (Option<[usize; 2]>, u64) {
+        let mut goes_on = |_: &Progress| work.flow();
+        if circles.is_empty() {
+            let enclosed = self.enclosed(bounds, |model, uncertain, stages| {
+                enclosure_within(model, uncertain, (&stages.mechanism, &stages.configuration), work).ok()
+            });
+            let Some(enclosed) = enclosed else { return (None, 1) };
+            let result = search(&enclosed.problem, &options.search, &mut goes_on);
+            return (certain_counts(&enclosed, &result, options, greatest), result.nodes());
+        }
         if self.model.has_guided_sliders() {
             return (None, 1);
         }
@@ -262,7 +254,6 @@ impl Varied {
         if greatest.is_none() && unique.is_some() {
             return (Some([1, 0]), 1);
         }
-        let mut goes_on = |_: &Progress| work.flow();
         let result = blocks::search_all_or_nothing(&problem, unique, &options.search, &mut goes_on);
         (certain_block_counts((&problem, &open), &result, greatest), result.nodes)
     }
@@ -537,22 +528,11 @@ fn certain_block_counts(
     if result.complete != Proof::Proven {
         return None;
     }
-    let greatest = greatest.unwrap_or(f64::INFINITY);
-    let mut counts = [0; 2];
-    for solution in &result.solutions {
-        if solution.on_boundary.iter().any(|&contact| problem.has_jump(contact)) {
-            return None;
-        }
-        let forces = solution.enclosure.iter().zip(&solution.states);
-        let pressed = forces.filter(|(_, state)| state.side().is_some()).map(|(force, _)| force.abs());
-        let pressed: Vec<Interval> = pressed.collect();
-        if pressed.iter().all(|force| force.upper() <= greatest) {
-            counts[usize::from(!open.is_solution(&solution.states))] += 1;
-        } else if pressed.iter().all(|force| force.lower() <= greatest) {
-            return None;
-        }
-    }
-    Some(counts)
+    let state = |BlockSolution { states, on_boundary, enclosure, .. }: &BlockSolution| {
+        let is_certain = !on_boundary.iter().any(|&contact| problem.has_jump(contact));
+        is_certain.then(|| (states.clone(), enclosure.iter().map(|force| force.abs()).collect()))
+    };
+    counted(open, greatest, result.solutions.iter().map(state))
 }
 
 /// The mechanism of a model with these values of what is varied.

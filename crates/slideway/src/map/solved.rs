@@ -3,6 +3,7 @@
 
 use super::ColourBy;
 use super::class::{MARGINS, States, margin_up_to};
+use crate::configuration::NO_ACCELERATION;
 use crate::fault::Faults;
 use crate::model::Model;
 use crate::progress::{Progress, Work};
@@ -11,9 +12,6 @@ use crate::solve::{
     BlockState, LastSolution, SolveOptions, Stages, block_states, factors_with_one_solution, pattern,
     solve_in,
 };
-
-/// An acceleration below this part of the greatest one is zero within rounding.
-const NO_ACCELERATION: f64 = 1e-9;
 
 /// All states of a point, with the margin of an only solution for a map by margin. `model` makes its model for a careful
 /// answer, which is given if `careful` says so: what becomes of the speeds and whether guided sliders tip needs one. None if

@@ -84,6 +84,19 @@ impl<'a> Answer<'a> {
         }
     }
 
+    /// That of a mechanism with these bounds of the exact numbers.
+    ///
+    /// # Errors
+    /// Nothing says how redundant guides share their load.
+    pub(super) fn of(
+        stages: &'a Stages,
+        equations: &'a KineticEquations,
+        enclosed: Option<&'a EnclosedOutputs>,
+    ) -> Result<Self, Faults> {
+        let (shared, elasticity) = (stages.shared_load()?, stages.elasticity()?);
+        Ok(Self { shared, elasticity, enclosed, ..Self::determinate(stages, equations) })
+    }
+
     /// The report on all solutions.
     pub(super) fn report(&self, found: &SearchFound<'_>) -> Result<SolveReport, Faults> {
         let lists = found.lists();

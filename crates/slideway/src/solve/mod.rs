@@ -64,7 +64,7 @@ pub(crate) use standing::{check_none_stands, check_standing};
 pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
-pub(crate) use uncertainty::certain_counts;
+pub(crate) use uncertainty::{certain_counts, counted};
 pub(crate) use words::joint_mode_in_words;
 pub use words::mode_in_words;
 
@@ -81,6 +81,7 @@ use crate::modes::{SearchOptions, SearchResult, search};
 use crate::one_face;
 use crate::progress::{Callback, Progress};
 use crate::report::{SolveReport, Status, finite};
+use answer::Answer;
 use std::ops::ControlFlow;
 
 /// What a solution may cost, and how much of it is told.
@@ -181,59 +182,52 @@ fn answered(
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
-    let has_rough_hinges = stages.mechanism.rough_hinges().next().is_some();
-    if has_rough_hinges || !stages.standing.is_empty() {
-        let at_rest = resting::may_lift_off(&stages.mechanism, &stages.standing);
-        let mut report = if has_rough_hinges {
-            blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
-        } else if at_rest {
-            resting::of_contacts(stages, equations)?
-        } else {
-            standing::of_contacts(stages, equations)?
-        };
-        if report.uncertainty.is_none() {
-            report.open.extend(taken_at_the_middle(ranges));
-        }
-        report.rates_not_given = rates_not_given(model);
-        if options.margins && !at_rest {
-            from_rest::add(&mut report, model, progress);
-        }
-        report.suit_units();
-        return finite(report);
+    let at_rest = resting::may_lift_off(&stages.mechanism, &stages.standing);
+    let mut report = if stages.mechanism.rough_hinges().next().is_some() {
+        blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
+    } else if at_rest {
+        resting::of_contacts(stages, equations)?
+    } else if stages.standing.is_empty() {
+        sliding(model, ranges, (stages, equations), options, progress)?
+    } else {
+        standing::of_contacts(stages, equations)?
+    };
+    if report.uncertainty.is_none() {
+        report.open.extend(taken_at_the_middle(ranges));
     }
-    let Stages { mechanism, configuration, influence, velocity_signs, .. } = stages;
+    report.rates_not_given = rates_not_given(model);
+    if options.margins && !at_rest {
+        from_rest::add(&mut report, model, progress);
+    }
+    report.suit_units();
+    finite(report)
+}
+
+/// The answer where all contacts with friction slide, and no hinge has friction.
+fn sliding(
+    model: &Model,
+    ranges: &[ParameterRange],
+    (stages, equations): (&Stages, &KineticEquations),
+    options: &SolveOptions,
+    progress: &mut Callback<'_>,
+) -> Result<SolveReport, Faults> {
     let enclosed = enclosed_while(progress, |work| {
-        enclosure_within(model, &middle(ranges), (mechanism, configuration), work)
+        enclosure_within(model, &middle(ranges), (&stages.mechanism, &stages.configuration), work)
     });
     let (result, jumps) = searched(&enclosed, stages.data(), &options.search, progress)?;
-    let answer = answer::Answer {
-        mechanism,
-        configuration,
-        equations,
-        influence,
-        velocity_signs,
-        jumps,
-        elasticity: stages.elasticity()?,
-        shared: stages.shared_load()?,
-        enclosed: enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs),
-    };
-    let mut report = answer.report(&found::SearchFound {
-        result: &result,
-        rounded: enclosed.as_ref().err(),
-        most: options.most,
-    })?;
-    report.rates_not_given = rates_not_given(model);
+    let outputs = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
+    let answer = Answer { jumps, ..Answer::of(stages, equations, outputs)? };
+    let rounded = enclosed.as_ref().err();
+    let mut report = answer.report(&found::SearchFound { result: &result, rounded, most: options.most })?;
     sharing::add(&mut report, stages, options.margins)?;
     if options.margins {
         margins::add(&mut report, stages.data(), enclosed.as_ref().ok(), &|signs| answer.joint_modes(signs));
-        from_rest::add(&mut report, model, progress);
         if report.status == Status::None {
             report.jam_impulses = resting::jam_impulses(stages, equations);
         }
     }
     report.uncertainty = answer.uncertainty(model, ranges, options, progress);
-    report.suit_units();
-    finite(report)
+    Ok(report)
 }
 
 /// The search for bounds of the exact numbers, else for rounded ones; and for each contact whether the

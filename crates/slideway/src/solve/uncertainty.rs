@@ -315,25 +315,36 @@ pub(crate) fn certain_counts(
     }
     let solutions = lists.solutions.iter().map(|found| (pressed(&found.pattern), &found.certificate));
     let gaps = lists.gaps.iter().map(|found| (found.pattern.clone(), &found.certificate));
-    let mut counts = [0; 2];
-    for (mode, certificate) in solutions.chain(gaps) {
-        let Certificate::Proven { unknowns } = certificate else { return None };
+    let forces = |(mode, certificate): (Vec<ContactState>, &Certificate)| {
+        let Certificate::Proven { unknowns } = certificate else { return Some(None) };
         match enclosed.outputs.tipping(&mode, unknowns) {
-            Tipping::Never => {}
-            Tipping::Open => return None,
+            Tipping::Never => Some(Some((mode, unknowns.clone()))),
+            Tipping::Open => Some(None),
             // Without normal force it may rest in its preload gap instead.
-            Tipping::Always
-                if enclosed.outputs.couples.iter().any(|couple| unknowns[couple.contact].contains(0.0)) =>
-            {
-                return None;
+            Tipping::Always => {
+                let mut couples = enclosed.outputs.couples.iter();
+                couples.any(|couple| unknowns[couple.contact].contains(0.0)).then_some(None)
             }
-            Tipping::Always => continue,
         }
-        let greatest = greatest.unwrap_or(f64::INFINITY);
-        let forces = mode.iter().zip(unknowns).filter(|(state, _)| **state != ContactState::Gap);
-        let forces: Vec<&Interval> = forces.map(|(_, force)| force).collect();
+    };
+    counted(&enclosed.open, greatest, solutions.chain(gaps).filter_map(forces))
+}
+
+/// The numbers of solutions and of preload-gap states with normal forces up to `greatest`, from bounds of `|N_k|` of each.
+/// Returns `None` if one is not certain, or may exceed that, or may not.
+pub(crate) fn counted(
+    open: &OpenContacts,
+    greatest: Option<f64>,
+    states: impl Iterator<Item = Option<(Vec<ContactState>, Vec<Interval>)>>,
+) -> Option<[usize; 2]> {
+    let greatest = greatest.unwrap_or(f64::INFINITY);
+    let mut counts = [0; 2];
+    for state in states {
+        let (mode, forces) = state?;
+        let pressed = mode.iter().zip(&forces).filter(|(state, _)| **state != ContactState::Gap);
+        let forces: Vec<&Interval> = pressed.map(|(_, force)| force).collect();
         if forces.iter().all(|force| force.upper() <= greatest) {
-            counts[usize::from(!enclosed.open.is_solution(&mode))] += 1;
+            counts[usize::from(!open.is_solution(&mode))] += 1;
         } else if forces.iter().all(|force| force.lower() <= greatest) {
             return None;
         }

@@ -104,19 +104,16 @@ impl Writer<'_> {
             forces[contacts + k] = faces[0] + faces[1] + 0.0;
             for (force, influence) in faces.iter().zip(&self.stages.influences[k]) {
                 if *force != 0.0 {
-                    let sums = outputs.iter_mut().zip(influence);
-                    sums.for_each(|(sum, per_force)| *sum += force * per_force);
+                    add_multiple(outputs, *force, influence);
                 }
             }
         }
         for (contact, per_force) in self.mechanism.excess.contacts.iter().zip(&self.stages.self_stresses) {
-            let force = forces[contact.index()];
-            outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
+            add_multiple(outputs, forces[contact.index()], per_force);
         }
         for (contact, per_force) in &self.stages.openings {
             if pattern[*contact] == ContactState::Negative {
-                let force = state.unknowns[*contact];
-                outputs.iter_mut().zip(per_force).for_each(|(sum, per_force)| *sum += force * per_force);
+                add_multiple(outputs, state.unknowns[*contact], per_force);
             }
         }
         self.add_couples(hinges, outputs);
@@ -148,11 +145,7 @@ impl Writer<'_> {
     /// Adds the friction couples of hinges to the outputs.
     fn add_couples(&self, hinges: &[HingeState], outputs: &mut [f64]) {
         for hinge in hinges {
-            let per_couple = &self.stages.couples[hinge.circle];
-            outputs
-                .iter_mut()
-                .zip(per_couple)
-                .for_each(|(sum, per_couple)| *sum += hinge.couple * per_couple);
+            add_multiple(outputs, hinge.couple, &self.stages.couples[hinge.circle]);
         }
         for columns in &self.plan.columns.hinges {
             let own = hinges.iter().find(|hinge| hinge.circle == columns.circle);
@@ -198,6 +191,11 @@ impl Writer<'_> {
         let Some(guides) = &self.guides else { return Verdict::NotComputed };
         guides.verdict_on(pattern)
     }
+}
+
+/// Adds the contribution of a force or couple to outputs.
+fn add_multiple(outputs: &mut [f64], factor: f64, per_unit: &[f64]) {
+    outputs.iter_mut().zip(per_unit).for_each(|(sum, per_unit)| *sum += factor * per_unit);
 }
 
 /// With friction in hinges: numbers the states of each mode among the rows of a point, which begin with `first`.

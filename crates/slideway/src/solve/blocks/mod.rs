@@ -57,13 +57,8 @@ pub(super) fn solve(
     let enclosed = enclosed_while(progress, |work| {
         enclosed_block_problem(model, uncertain, (mechanism, configuration), &turning, work)
     });
-    let enclosed_outputs = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
-    let answer = Answer {
-        enclosed: enclosed_outputs,
-        shared: stages.shared_load()?,
-        elasticity: stages.elasticity()?,
-        ..Answer::determinate(stages, equations)
-    };
+    let outputs = enclosed.as_ref().ok().map(|enclosed| &enclosed.outputs);
+    let answer = Answer::of(stages, equations, outputs)?;
     let searched = enclosed.as_ref().map_or(&problem, |enclosed| &enclosed.problem);
     let result = blocks::search(searched, &options.search, progress);
     let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
