@@ -18,6 +18,7 @@ mod limits_curves;
 mod map;
 mod motion_fast_loads;
 mod motion_gaps;
+mod motion_impacts;
 mod motion_lifting;
 mod motion_outcomes;
 mod motion_reference;
