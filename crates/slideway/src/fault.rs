@@ -352,8 +352,12 @@ pub enum FaultKind {
     NotFinite { what: String },
     #[error("the loads or drives grow without bound")]
     LoadsWithoutBounds,
-    #[error("the impact of {} can have several outcomes", joints.join(" and "))]
-    SeveralImpacts { joints: Vec<String> },
+    #[error(
+        "the impact of {} can have {}",
+        joints.join(" and "),
+        if outcomes.is_empty() { "several outcomes".to_owned() } else { format!("{} outcomes: {}", outcomes.len(), outcomes.join("; ")) }
+    )]
+    SeveralImpacts { joints: Vec<String>, outcomes: Vec<String> },
     #[error("the impact of {} could not be decided: not all possible impulses were found", joints.join(" and "))]
     UnsolvedImpact { joints: Vec<String> },
     #[error(
@@ -810,7 +814,7 @@ impl FaultKind {
             Self::StaticRadiusBelowKinetic { .. } => {
                 Some("omit `static_friction_radius` to make it equal to `friction_radius`")
             }
-            Self::SeveralImpacts { joints } if joints.len() > 1 => {
+            Self::SeveralImpacts { joints, .. } if joints.len() > 1 => {
                 Some("friction decides which of them pushes; change where one of them hits a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),

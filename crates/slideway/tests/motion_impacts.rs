@@ -3,7 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
 use slideway::model::{Model, Settings};
-use slideway::motion::{Cause, End, History, SimulateOptions, simulate};
+use slideway::motion::{Cause, End, History, ImpactLaw, SimulateOptions, simulate};
 
 fn history(text: &str, duration: f64) -> History {
     let model = Model::parse(text).unwrap().with(&Settings::default()).unwrap();
@@ -299,4 +299,101 @@ fn no_restitution_adds_energy() {
         assert!(error < 1e-7, "{error} {:?} {:#?}", history.end, words(&history));
     }
     assert!(count > 100, "{count}");
+}
+
+/// Two hinged bodies with a corner each, which hit their faces together: by Moreau's law there are three outcomes, with the
+/// energies that an enumeration in descriptor form finds (case `impact_with_three_outcomes`).
+#[test]
+fn all_outcomes_of_moreaus_law_are_told() {
+    let corners = [
+        ("k1", "b1", [-0.21, -0.09], 3.2_f64, 2.57, [0.99, 0.75], [1.288_091_838_222_007, 0.449_035_367_290_372_8, 0.010_654_836_876_291_367]),
+        ("k2", "b2", [-1.84, 0.37], 1.33_f64, 2.67, [-0.1, 0.73], [1.211_908_161_777_993, 0.490_964_632_709_627_2, -0.054_641_550_457_583_67]),
+    ];
+    let joint = |(name, body, [x, y], angle, mu, [cx, cy], [vx, vy, w]): (&str, &str, [f64; 2], f64, f64, [f64; 2], [f64; 3])| {
+        let (sin, cos) = angle.sin_cos();
+        // Its face is where the corner is 0.1 us later.
+        let rate = -sin * (vx - w * (y - cy)) + cos * (vy + w * (x - cx));
+        let [fx, fy] = [x - sin * rate * 1e-7, y + cos * rate * 1e-7];
+        let end = |side: f64| format!("[{:?}, {:?}]", fx + side * cos, fy + side * sin);
+        [
+            format!("{name} = [{x}, {y}]\n{name}_a = {}\n{name}_b = {}\n", end(-1.0), end(1.0)),
+            format!(
+                "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"{body}\"\nat = \"{name}\"\n\
+                 face = [\"{name}_a\", \"{name}_b\"]\nmu = {mu}\nclosed = false\n"
+            ),
+        ]
+    };
+    let [[first_points, first], [second_points, second]] = corners.map(joint);
+    let [[vx, vy, w1], [.., w2]] = corners.map(|corner| corner.6);
+    let text = format!(
+        r#"
+        [points]
+        {first_points}
+        {second_points}
+        S1 = [0.99, 0.75]
+        S2 = [-0.1, 0.73]
+        H = [0.72, 1.9]
+        [bodies.b1]
+        points = ["S1", "H", "k1"]
+        mass = 2.52
+        moment_of_inertia = 0.251
+        centre_of_mass = "S1"
+        [bodies.b2]
+        points = ["S2", "H", "k2"]
+        mass = 2.82
+        moment_of_inertia = 0.277
+        centre_of_mass = "S2"
+        [joints.hinge]
+        type = "hinge"
+        between = ["b2.H", "b1.H"]
+        {first}
+        {second}
+        [coordinates.x]
+        x = "b1.S1"
+        rate = {vx:?}
+        [coordinates.y]
+        y = "b1.S1"
+        rate = {vy:?}
+        [coordinates.turn]
+        rotation = "b1"
+        rate = {w1:?}
+        [coordinates.other]
+        rotation = "b2"
+        rate = {w2:?}
+        "#
+    );
+    let model = Model::parse(&text).unwrap().with(&Settings::default()).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(0.01).impacts(ImpactLaw::Moreau)).unwrap();
+    let End::Undecided(faults) = &history.end else { panic!("{:?} {:#?}", history.end, words(&history)) };
+    let faults = faults.to_string();
+    for outcome in [
+        "k1 sticks, k2 sticks (4.756 J lost)",
+        "k1 slides, k2 sticks (4.756 J lost)",
+        "k1 lifts off, k2 sticks (2.522 J lost)",
+    ] {
+        assert!(faults.contains(outcome), "{faults}");
+    }
+    assert!(faults.contains("3 outcomes"), "{faults}");
+}
+
+/// The woodpecker toy with finite rotations: period, drop and the state in which the sleeve begins to stick, by an event-driven
+/// program of its own for both laws (case `woodpecker_exact_geometry`; time stepping agrees).
+#[test]
+fn the_woodpecker_pecks() {
+    let text = include_str!("../models/woodpecker.toml");
+    let model = Model::parse(text).unwrap().with(&Settings::default()).unwrap();
+    for (law, period, drop) in [
+        (ImpactLaw::Course, 0.148_858_285_9, 0.021_389_215_72),
+        (ImpactLaw::Moreau, 0.130_747_525, 0.014_496_911_1),
+    ] {
+        let history = simulate(&model, &SimulateOptions::new(2.5).impacts(law)).unwrap();
+        assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
+        let stops = history.events.iter().filter(|event| event.words.contains("lower stops and sticks"));
+        let times: Vec<f64> = stops.map(|event| event.time).collect();
+        let [.., before, last] = times[..] else { panic!("{:#?}", words(&history)) };
+        is_near(last - before, period, 1e-7);
+        let mut reader = history.reader();
+        let mut height = |time: f64| reader.configuration(time).unwrap().poses[0].position.y;
+        is_near(height(before) - height(last), drop, 1e-7);
+    }
 }

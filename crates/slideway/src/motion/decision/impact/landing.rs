@@ -12,6 +12,9 @@
 //! stops. A contact that would leave for a flight which rounding of places hides has come to rest: the rate of its gap goes to
 //! zero, too.
 //!
+//! By Moreau's law friction opposes the slip after the impact in place of that at each moment: then an impact is one such part,
+//! with velocities afterwards in the place of their changes, and all its outcomes are found.
+//!
 //! The impact is over at latest when the contacts have returned the work that they have taken: where they would return more, all
 //! `e` are reduced in proportion until they return as much, so that kinetic energy never grows.
 
@@ -21,12 +24,13 @@ use crate::ids::ContactId;
 use crate::kinetics::Reaction;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::assessment::Assessment;
-use crate::motion::decision::impulse::{AT_REST, Impulses};
+use crate::motion::decision::impulse::{AT_REST, Impulses, jumped};
 use crate::motion::decision::instant::Instant;
 use crate::motion::decision::joints::TOUCHES;
 use crate::motion::decision::lifting::{Touching, least_flight, subsets};
 use crate::motion::decision::parts::SAME;
 use crate::motion::moving::energy::kinetic;
+use crate::motion::options::ImpactLaw;
 use crate::pattern::{ContactPhase, JointPhase};
 use crate::progress::Work;
 use nalgebra::DVector;
@@ -46,10 +50,11 @@ pub(in crate::motion) struct Landing {
 pub(in crate::motion) fn landing(
     mechanism: &Mechanism,
     configuration: &Configuration,
+    law: ImpactLaw,
     work: Work<'_>,
 ) -> Result<Landing, Faults> {
     let least = least_flight(mechanism, configuration)?;
-    let mut impact = Impact { mechanism, before: configuration, resting: Vec::new(), part: 1.0, work };
+    let mut impact = Impact { mechanism, before: configuration, resting: Vec::new(), part: 1.0, law, work };
     loop {
         let after = impact.outcome()?;
         let rests =
@@ -79,6 +84,7 @@ struct Impact<'m> {
     resting: Vec<usize>,
     /// The part of all restitutions with which contacts leave their faces.
     part: f64,
+    law: ImpactLaw,
     work: Work<'m>,
 }
 
@@ -103,11 +109,19 @@ struct Course {
 struct Part {
     /// The jumps of all velocities of the bodies.
     jumps: DVector<f64>,
-    /// The impulses of the contacts that push (N s).
-    pushes: Vec<(usize, f64)>,
+    /// The contacts that push.
+    pushes: Vec<Push>,
     /// The part of the whole change after which something stops that has slid; infinite if the change has no end of its own, and
     /// nothing stops.
     length: f64,
+}
+
+/// What a contact does that pushes.
+struct Push {
+    contact: usize,
+    /// Its normal impulse (N s).
+    impulse: f64,
+    sticks: bool,
 }
 
 /// Where the rates of the gaps of contacts that push go.
@@ -124,7 +138,7 @@ impl Impact<'_> {
     fn outcome(&mut self) -> Result<Configuration, Faults> {
         self.part = 1.0;
         match self.course() {
-            Ok(course) if course.returned <= 0.0 => return Ok(course.after),
+            Ok(course) if course.returned <= 0.0 || self.law == ImpactLaw::Moreau => return Ok(course.after),
             Err(faults) if !self.bounces() => return Err(faults),
             _ => {}
         }
@@ -143,7 +157,7 @@ impl Impact<'_> {
 
     /// Returns whether a contact that closes has a restitution.
     fn bounces(&self) -> bool {
-        self.touches(self.before).iter().any(|touch| touch.end > 0.0)
+        self.law == ImpactLaw::Course && self.touches(self.before).iter().any(|touch| touch.end > 0.0)
     }
 
     /// The contacts whose gaps are zero.
@@ -173,6 +187,9 @@ impl Impact<'_> {
                 return Ok(course);
             }
             self.go_on(&mut course, &touches)?;
+            if self.law == ImpactLaw::Moreau {
+                return Ok(course);
+            }
         }
         Err(self.wedges(&self.touches(&course.after)))
     }
@@ -180,15 +197,19 @@ impl Impact<'_> {
     /// Follows the next part of a course.
     fn go_on(&self, course: &mut Course, touches: &[Touch]) -> Result<(), Faults> {
         let part = self.part_of(&course.after, touches)?;
-        let mut after =
-            super::super::impulse::jumped(&course.after, part.jumps.as_slice(), part.length);
-        after.measure(self.mechanism);
-        for (contact, push) in &part.pushes {
+        let after = self.moved(&course.after, &part);
+        for Push { contact, impulse, .. } in &part.pushes {
             let rate = |configuration: &Configuration| configuration.gap(self.mechanism, ContactId(*contact))[1];
-            course.returned += push * part.length * f64::midpoint(rate(&course.after), rate(&after));
+            course.returned += impulse * part.length * f64::midpoint(rate(&course.after), rate(&after));
         }
         course.after = after;
         Ok(())
+    }
+
+    fn moved(&self, configuration: &Configuration, part: &Part) -> Configuration {
+        let mut after = jumped(configuration, part.jumps.as_slice(), part.length);
+        after.measure(self.mechanism);
+        after
     }
 
     fn names(&self, touches: &[Touch]) -> Vec<String> {
@@ -219,13 +240,32 @@ impl Impact<'_> {
                 }
             }
             if found.len() > 1 {
-                return Err(Fault::general(FaultKind::SeveralImpacts { joints: self.names(touches) }).into());
+                let joints = self.names(touches);
+                let outcomes = found.iter().map(|part| self.in_words(configuration, part, touches)).collect();
+                return Err(Fault::general(FaultKind::SeveralImpacts { joints, outcomes }).into());
             }
             if let Some(part) = found.pop() {
                 return Ok(part);
             }
         }
         Err(self.wedges(touches))
+    }
+
+    /// What a part of an impact does, such as "left lifts off, right slides (1.2 J lost)".
+    fn in_words(&self, configuration: &Configuration, part: &Part, touches: &[Touch]) -> String {
+        let mechanism = self.mechanism;
+        let after = self.moved(configuration, part);
+        let does = |touch: &Touch| {
+            let does = match part.pushes.iter().find(|push| push.contact == touch.contact) {
+                None => "lifts off",
+                Some(push) if push.sticks => "sticks",
+                Some(_) => "slides",
+            };
+            format!("{} {does}", mechanism.contacts[touch.contact].name)
+        };
+        let does: Vec<String> = touches.iter().map(does).collect();
+        let lost = mechanism.units.of("J").brief(kinetic(mechanism, configuration) - kinetic(mechanism, &after));
+        format!("{} ({lost} lost)", does.join(", "))
     }
 
     fn differs(&self, part: &Part, other: &Part) -> bool {
@@ -267,7 +307,14 @@ impl Impact<'_> {
             left.iter().filter(of_joint).nth(number).map_or(0.0, |k| short_of(*k).max(greatest))
         };
         impulses.put_base(&base, short);
-        let states = self.states(&impulses, (touching, &velocities, &stopped), touches)?;
+        let (options, stopped) = match self.law {
+            ImpactLaw::Course => (velocities.clone(), stopped),
+            ImpactLaw::Moreau => {
+                impulses.put_velocities_after(&velocities);
+                (vec![0.0; velocities.len()], vec![true; velocities.len()])
+            }
+        };
+        let states = self.states(&impulses, (touching, &options, &stopped), touches)?;
         let length = |state: &Assessment, jumps: &DVector<f64>| {
             let until = |(number, velocity): (usize, &f64)| {
                 let slides = state.phase.of(number) != JointPhase::Sticking && instant.may_stick(number);
@@ -275,15 +322,20 @@ impl Impact<'_> {
                 (slides && *velocity != 0.0 && part > 0.0).then_some(part)
             };
             let most = if towards == Towards::TheEnd { 1.0 } else { f64::INFINITY };
+            if self.law == ImpactLaw::Moreau {
+                return most;
+            }
             velocities.iter().enumerate().filter_map(until).fold(most, f64::min)
         };
-        let push = |contact: ContactId, jumps: &DVector<f64>| {
+        let push = |contact: ContactId, state: &Assessment, jumps: &DVector<f64>| {
             let index = instant.equations.layout.reaction(Reaction::Normal(contact))?;
-            Some((touching.number(contact), jumps[index]))
+            let joint = instant.joint_of(contact.index())?;
+            let sticks = state.phase.of(joint) == JointPhase::Sticking;
+            Some(Push { contact: touching.number(contact), impulse: jumps[index], sticks })
         };
         let part = |state: Assessment| {
             let jumps = &base + impulses.jumps(&state);
-            let pushes = mechanism.one_sided().filter_map(|contact| push(contact, &jumps)).collect();
+            let pushes = mechanism.one_sided().filter_map(|contact| push(contact, &state, &jumps)).collect();
             let length = length(&state, &jumps);
             Part { jumps, pushes, length }
         };
