@@ -429,8 +429,6 @@ pub enum FaultKind {
         listed(contacts)
     )]
     OneSidedInExcess { contacts: Vec<String> },
-    #[error("motions do not follow a disc that may roll: {}", listed(contacts))]
-    DiscAtRest { contacts: Vec<String> },
     #[error(
         "when {} lifted off, the acceleration could not be computed, as what moves then has no mass: {motion}",
         listed(contacts)
@@ -655,9 +653,6 @@ impl FaultKind {
                 "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
                     .to_owned(),
             ),
-            Self::DiscAtRest { .. } => {
-                Some("end the motion before; `solve` and `hold` know discs at rest".to_owned())
-            }
             Self::LiftsWithoutInertia { .. } => Some(
                 "give mass to the bodies that nothing else holds".to_owned(),
             ),

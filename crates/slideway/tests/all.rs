@@ -22,6 +22,7 @@ mod motion_impacts;
 mod motion_lifting;
 mod motion_outcomes;
 mod motion_reference;
+mod motion_rolling;
 mod motion_zero_force;
 mod motions;
 mod mutations;

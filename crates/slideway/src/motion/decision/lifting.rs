@@ -94,12 +94,6 @@ impl<'m> Touching<'m> {
         let apart = self.is_apart();
         let signs: Vec<f64> =
             event.signs.iter().zip(apart).map(|(sign, apart)| if apart { 1.0 } else { *sign }).collect();
-        let joint_rests = |k: usize| {
-            let joint = self.mechanism.contacts[k].joint;
-            let mut sliders = crate::pattern::phase::sliding_joints(&self.mechanism).into_iter();
-            sliders.position(|slider| slider == joint).is_some_and(|index| signs[index] == 0.0)
-        };
-        self.mechanism.check_no_disc_at_rest(joint_rests)?;
         let previous = event.previous.filter(|phase| phase.open(self.whole) == self.open);
         let previous = previous.map(|phase| self.part_of(phase));
         let place = |contact: &ContactId| self.kept.iter().position(|&k| k == contact.index()).map(ContactId);
