@@ -9,10 +9,12 @@
 #   ```console exit=1                 begins with a command, `$ slideway ...`; what it prints follows. It must end with
 #                                     this exit code (0 if none is given), or the script stops.
 #   ```console answer                 shows the second paragraph of what is printed, which has the answer, and `...` for the others;
+#   ```console answer=2               the first two lines of the answer;
 #   ```console paragraphs=2           the first two paragraphs;
 #   ```console lines=9                the first nine lines.
 #   ```console once                   of a help, names the options that an earlier block of the page shows with the same words, and
-#                                     leaves out the examples and the exit codes.
+#                                     leaves out the examples and the exit codes;
+#   ```console once options           and what stands behind the options, which another page of the book says.
 #   ```toml file=docs/src/examples/engine.toml        shows the file.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -40,9 +42,9 @@ part() {
 }
 
 # once: a help on standard input without its examples and exit codes, and without the arguments and options that are in $scratch/options, to
-# which it adds the others.
+# which it adds the others. once 1: also without what stands behind the options.
 once() {
-    awk -v known="$scratch/options" '
+    awk -v known="$scratch/options" -v brief="${1:-0}" '
         function end_option() {
             key = option
             gsub(/[ \n]+/, " ", key)
@@ -61,7 +63,7 @@ once() {
             named = ""
         }
         BEGIN { while ((getline line <known) > 0) seen[line] }
-        /^[^ ]/ { end_section(); left_out = /^(Examples|Exit codes):/ }
+        /^[^ ]/ { end_section(); exits = exits || /^Exit codes:/; left_out = exits || /^Examples:/ || brief && options; options = options || /^Options:/ }
         left_out { next }
         /^(  -[a-zA-Z], |      )--|^  [<[]/ { end_option(); option = $0 "\n"; next }
         option != "" { option = option $0 "\n"; next }
@@ -80,9 +82,11 @@ show() {
     printed=$(cd "$scratch/run" && eval "${2#\$ }" </dev/null 2>&1) || code=$?
     [ "$code" -eq "$expected" ] || fault "$2: exit code $code, expected $expected; printed: $printed"
     case $1 in
+        *answer=*) printed=$(part 2 2 "" <<<"$printed" | part 1 "${1#*answer=}" $'\n') ;;
         *answer*) printed=$(part 2 2 "" <<<"$printed") ;;
         *paragraphs=*) printed=$(part 1 "${1#*paragraphs=}" "" <<<"$printed") ;;
         *lines=*) printed=$(part 1 "${1#*lines=}" $'\n' <<<"$printed") ;;
+        *once*options*) printed=$(once 1 <<<"$printed") ;;
         *once*) printed=$(once <<<"$printed") ;;
     esac
     [ -n "$printed" ] || fault "$2: nothing of what is printed is shown"

@@ -45,6 +45,7 @@ draw latch-with-pawl.svg models/latch-with-pawl.toml
 draw cam-and-spring.svg models/cam-and-spring.toml
 draw nip-of-rolls.svg models/nip-of-rolls.toml
 draw shaft-in-v-block.svg models/shaft-in-v-block.toml
+draw woodpecker.svg models/woodpecker.toml
 draw clamp.svg docs/src/examples/clamp.toml
 draw bracket.svg docs/src/examples/bracket.toml
 # Plots.
@@ -99,6 +100,7 @@ motion animation-drawer.svg --animate models/thrown-drawer.toml --until 0.5s --s
 motion animation-crank.svg --animate models/slider-crank.toml --until 30ms --slow-motion 120
 motion animation-trammel.svg --animate models/elliptic-trammel.toml --until 1.2s --slow-motion 4
 motion animation-sleeve.svg --animate models/sleeve-on-arm.toml --until 0.6s --slow-motion 6
+motion animation-woodpecker.svg --animate models/woodpecker.toml --until 0.3s --slow-motion 20
 motion animation-boom.svg --animate models/telescopic-boom.toml --until 0.6s --slow-motion 6
 draw drawer-before-the-jam.svg models/thrown-drawer.toml --at x=0.29 --rate x=1.2 --solution 2
 draw motion-near-the-jam.svg models/klepp-2002-spring.toml --set mu_1=0.44 --set direction=-1

@@ -55,6 +55,7 @@ DIMENSIONS = {
     "thrown-drawer": ("m", "4 kg", "6 kg"),
     "toggle-press": ("Q", "5 kN", "15 kN"),
     "wedge": ("alpha", "10 deg", "20 deg"),
+    "woodpecker": ("l", "14 mm", "16 mm"),
 }
 
 

@@ -64,6 +64,7 @@ def test_words_of_choices_are_those_that_are_taken() -> None:
         "drives": (_values.DrivesAtRest, lambda word: model.hold(drives=word)),
         "colour_by": (_values.ColourBy, lambda word: model.map(mu=(0, 1), L=(0.3, 0.4), size=(2, 2), colour_by=word)),
         "sampling": (_values.SamplingName, lambda word: model.sweep(samples=2, mu="0.1..0.2", sampling=word)),
+        "impacts": (_values.ImpactLaw, lambda word: model.simulate(0.01, impacts=word)),
         "prefer": (_values.Preference, lambda word: model.simulate(0.01, prefer=word)),
         "theme": (_values.ThemeName, lambda word: model.draw(theme=word)),
     }

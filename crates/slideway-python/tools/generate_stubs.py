@@ -34,6 +34,7 @@ from ._values import (
     ContactValues,
     DrivesAtRest,
     End,
+    ImpactLaw,
     MarginAgainst,
     Number,
     Pair,

@@ -352,8 +352,12 @@ pub enum FaultKind {
     NotFinite { what: String },
     #[error("the loads or drives grow without bound")]
     LoadsWithoutBounds,
-    #[error("the impact of {} can have several outcomes", joints.join(" and "))]
-    SeveralImpacts { joints: Vec<String> },
+    #[error(
+        "the impact of {} can have {}",
+        joints.join(" and "),
+        if outcomes.is_empty() { "several outcomes".to_owned() } else { format!("{} outcomes: {}", outcomes.len(), outcomes.join("; ")) }
+    )]
+    SeveralImpacts { joints: Vec<String>, outcomes: Vec<String> },
     #[error("the impact of {} could not be decided: not all possible impulses were found", joints.join(" and "))]
     UnsolvedImpact { joints: Vec<String> },
     #[error(
@@ -425,8 +429,6 @@ pub enum FaultKind {
         listed(contacts)
     )]
     OneSidedInExcess { contacts: Vec<String> },
-    #[error("motions do not follow a disc that may roll: {}", listed(contacts))]
-    DiscAtRest { contacts: Vec<String> },
     #[error(
         "when {} lifted off, the acceleration could not be computed, as what moves then has no mass: {motion}",
         listed(contacts)
@@ -651,9 +653,6 @@ impl FaultKind {
                 "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
                     .to_owned(),
             ),
-            Self::DiscAtRest { .. } => {
-                Some("end the motion before; `solve` and `hold` know discs at rest".to_owned())
-            }
             Self::LiftsWithoutInertia { .. } => Some(
                 "give mass to the bodies that nothing else holds".to_owned(),
             ),
@@ -810,7 +809,7 @@ impl FaultKind {
             Self::StaticRadiusBelowKinetic { .. } => {
                 Some("omit `static_friction_radius` to make it equal to `friction_radius`")
             }
-            Self::SeveralImpacts { joints } if joints.len() > 1 => {
+            Self::SeveralImpacts { joints, .. } if joints.len() > 1 => {
                 Some("friction decides which of them pushes; change where one of them hits a little")
             }
             Self::FloatingBodies { .. } => Some("add a joint, or remove what is not part of the mechanism"),

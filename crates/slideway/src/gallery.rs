@@ -53,6 +53,7 @@ pub const MODELS: &[GalleryModel] = gallery![
     "cam-and-spring",
     "nip-of-rolls",
     "shaft-in-v-block",
+    "woodpecker",
 ];
 
 impl GalleryModel {

@@ -1,8 +1,10 @@
 //! `slideway simulate`
 
-use super::values::positive;
+use super::values::{choice, positive};
 use super::{CheckFormat, Destination, ModelArguments, PlotArguments, TimeArguments};
 use clap::{Args, ValueEnum};
+use slideway::choice::Choice;
+use slideway::motion::ImpactLaw;
 use std::path::PathBuf;
 
 pub(super) const HELP: &str = "\
@@ -52,6 +54,10 @@ pub(crate) struct SimulateArguments {
     /// Which of several possible modes to prefer.
     #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
     pub(crate) prefer: Preference,
+
+    /// What friction does in impacts on the faces of contacts that may lift off.
+    #[arg(long, default_value = ImpactLaw::default().word(), value_parser = choice::<ImpactLaw>(), value_name = "LAW")]
+    pub(crate) impacts: ImpactLaw,
 
     /// Follow every branch wherever several modes are possible.
     #[arg(long)]

@@ -145,6 +145,7 @@ impl Question<'_> {
             .reaction_limit(arguments.max_reaction)
             .branches(arguments.branch.iter().copied())
             .prefers_sliding(arguments.prefer == Preference::Sliding)
+            .impacts(arguments.impacts)
             .with_events_of(self.mechanism);
         match &arguments.mode {
             Some(mode) => {

@@ -49,6 +49,7 @@ pub fn motion_figure(history: &History) -> Figure {
             });
         }
     }
+    panels.extend(builder.gaps(history));
     panels.extend(builder.forces(history));
     panels.extend(builder.friction(history));
     let energies = [
@@ -164,10 +165,22 @@ fn jams(history: &History) -> Vec<MarkedValue> {
     .collect()
 }
 
+/// The times of impacts on faces, with rings as large as their losses.
+fn impacts(history: &History) -> Vec<(f64, PointKind)> {
+    let lost = |cause: &Cause| if let Cause::Lands { energy_lost, .. } = cause { *energy_lost } else { None };
+    let events = history.events.iter();
+    let all: Vec<(f64, f64)> =
+        events.filter_map(|event| Some((event.time, event.causes.iter().filter_map(lost).next()?))).collect();
+    let greatest = all.iter().map(|(_, lost)| *lost).fold(0.0, f64::max);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 100, and saturating")]
+    let ring = |&(time, lost): &(f64, f64)| (time, PointKind::Impact { percent: (100.0 * lost / greatest) as u8 });
+    all.iter().map(ring).collect()
+}
+
 /// Returns the changes that impulses make in the portrait of a coordinate, as curves from the end of one
 /// piece to the beginning of the next, where they can be seen.
 fn jumps(history: &History, curves: &[Curve], branch: usize) -> Vec<Curve> {
-    let is_impulse = |cause: &Cause| matches!(cause, Cause::Jams { .. } | Cause::Hits { .. });
+    let is_impulse = |cause: &Cause| matches!(cause, Cause::Jams { .. } | Cause::Hits { .. } | Cause::Lands { .. });
     let [_, least] = point_size(curves);
     let groups = groups(history);
     let pairs = curves.windows(2).zip(&groups);
@@ -355,6 +368,21 @@ impl Builder<'_> {
             curves: drawn,
             ..Panel::default()
         }
+    }
+
+    /// The gaps of contacts that are open at times, with rings at impacts.
+    fn gaps(&mut self, history: &History) -> Option<Panel> {
+        let contacts = history.mechanism.contacts.iter();
+        let gaps = contacts.map(|one| (one.name.to_string(), format!("{}.gap", one.name)));
+        let gaps: Vec<_> = gaps.filter(|(_, column)| self.samples.is_used(column)).collect();
+        if gaps.is_empty() {
+            return None;
+        }
+        let mut panel = self.panel("Gaps", ("gap", "m"), &gaps);
+        let seconds = self.units.of("s");
+        let rings = impacts(history).into_iter();
+        panel.points = rings.map(|(time, kind)| MarkedPoint { at: [seconds.number_of(time), 0.0], kind }).collect();
+        Some(panel)
     }
 
     /// The normal forces of the contacts, and the magnitudes of the forces of hinges with friction; the first of these

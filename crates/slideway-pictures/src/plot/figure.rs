@@ -156,6 +156,11 @@ pub enum PointKind {
     End,
     /// The values of the model itself: a diagonal cross.
     Model,
+    /// An impact: a ring whose area is the energy that it takes.
+    Impact {
+        /// That energy, in percent of the greatest of the motion.
+        percent: u8,
+    },
 }
 
 impl PointKind {
@@ -167,6 +172,7 @@ impl PointKind {
             Self::Jam => "jams",
             Self::End => "end, still moving",
             Self::Model => "the model",
+            Self::Impact { .. } => "impact; area: energy lost",
         }
     }
 }

@@ -74,7 +74,8 @@ impl Legend {
         }
         let mut kinds: Vec<PointKind> = panel.points.iter().map(|point| point.kind).collect();
         kinds.sort_unstable();
-        kinds.into_iter().for_each(|kind| legend.add(LegendSample::Point(kind), kind.words()));
+        // Of several rings the greatest.
+        kinds.into_iter().rev().for_each(|kind| legend.add(LegendSample::Point(kind), kind.words()));
         if let Some(words) = layout.cut() {
             legend.add(LegendSample::Cut, &words);
         }

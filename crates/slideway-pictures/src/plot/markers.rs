@@ -9,6 +9,8 @@ use std::fmt::Write;
 const SPACING: f64 = 120.0;
 /// Half the size of a marker (px).
 const SIZE: f64 = 4.2;
+/// Radius of the ring of the greatest impact, in sizes.
+const GREATEST_RING: f64 = 2.5;
 /// Corners of the markers that are polygons, in units of their size; the first marker is a circle.
 const SHAPES: [&[[f64; 2]]; 5] = [
     &[],
@@ -95,10 +97,15 @@ pub(super) fn point(kind: PointKind, [x, y]: [f64; 2], theme: &Theme, svg: &mut 
             &[&[("points", &*corners)], &style[..1], &[("fill", fill)], &style[2..]].concat(),
         );
     };
+    let circle = |radius: f64, style: &[(&str, &str)], svg: &mut Svg| {
+        let [x, y, radius] = [x, y, radius].map(coordinate);
+        svg.element("circle", &[&[("cx", &*x), ("cy", &*y), ("r", &*radius)], style].concat());
+    };
     match kind {
-        PointKind::Start => {
-            let [x, y, radius] = [x, y, 1.1 * SIZE].map(coordinate);
-            svg.element("circle", &[&[("cx", &*x), ("cy", &*y), ("r", &*radius)], &style[..]].concat());
+        PointKind::Start => circle(1.1 * SIZE, &style, svg),
+        PointKind::Impact { percent } => {
+            let ring = [style[0], ("fill", "none"), ("stroke", theme.warning), style[3]];
+            circle(GREATEST_RING * SIZE * (f64::from(percent) / 100.0).sqrt(), &ring, svg);
         }
         PointKind::Stop => polygon(SHAPES[1], theme.ink, svg),
         PointKind::End => polygon(SHAPES[2], theme.background, svg),

@@ -19,6 +19,7 @@ from ._values import (
     ContactValues,
     DrivesAtRest,
     End,
+    ImpactLaw,
     MarginAgainst,
     Number,
     Pair,
@@ -1092,9 +1093,9 @@ class Model:
         What was changed in the text, such as `["mu=0.5", "at alpha=75 deg"]`.
         """
     @overload
-    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: Preference = "rule", all_branches: int, tolerance: Number = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: Number | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> reports.TreeReport: ...
+    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: Preference = "rule", impacts: ImpactLaw = "course", all_branches: int, tolerance: Number = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: Number | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> reports.TreeReport: ...
     @overload
-    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: Preference = "rule", all_branches: None = None, tolerance: Number = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: Number | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> _motion.Motion:
+    def simulate(self, /, until: Value, *, mode: str | None = None, branches: Sequence[int] | None = None, prefer: Preference = "rule", impacts: ImpactLaw = "course", all_branches: None = None, tolerance: Number = 1e-8, longest_step: Value | None = None, max_steps: int = 1000000, max_events: int = 100000, max_reaction: Number | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> _motion.Motion:
         """
         The motion until a time, the contact mode being part of the state.
 
@@ -1108,6 +1109,9 @@ class Model:
             Which of several possible modes to take at each decision, from 1.
         prefer : {"rule", "sliding"}
             Which one otherwise: that of the rule in the book, or sliding.
+        impacts : {"course", "moreau"}
+            What friction does in impacts on the faces of contacts that may lift off: it opposes the slip at each moment, or
+            that after the impact.
         all_branches : int, optional
             Follows all motions, at most so many.
         tolerance : float, default 1e-8

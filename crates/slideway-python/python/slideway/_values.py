@@ -28,6 +28,7 @@ MarginAgainst = Literal["locking", "self-locking", "hold"]
 ColourBy = Literal["solutions", "modes", "margin", "jam", "motion", "effort", "hold"]
 SamplingName = Literal["random", "halton"]
 Preference = Literal["rule", "sliding"]
+ImpactLaw = Literal["course", "moreau"]
 
 Progress = Callable[[float | None, int, str], object]
 """What is told of the progress of work: the fraction that is done, if it is known, and how many of what were done."""

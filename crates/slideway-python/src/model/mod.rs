@@ -382,8 +382,8 @@ impl Model {
 
     #[doc = include_str!("../../docs/simulate.txt")]
     #[expect(clippy::too_many_arguments, reason = "arguments of Python, by name")]
-    #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer: "Preference" = "rule", all_branches = None,
-        tolerance = 1e-8, longest_step: "Value | None" = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
+    #[pyo3(signature = (until: "Value", *, mode = None, branches: "Sequence[int] | None" = None, prefer: "Preference" = "rule",
+        impacts: "ImpactLaw" = "course", all_branches = None, tolerance = 1e-8, longest_step: "Value | None" = None, max_steps = 1_000_000, max_events = 100_000, max_reaction = None,
         time_limit = None, progress: "Progress | None" = None) -> "_motion.Motion")]
     fn simulate<'py>(
         &self,
@@ -392,6 +392,7 @@ impl Model {
         mode: Option<&str>,
         branches: Option<Vec<i64>>,
         prefer: &str,
+        impacts: &str,
         all_branches: Option<i64>,
         tolerance: f64,
         longest_step: Option<&Bound<'py, PyAny>>,
@@ -402,7 +403,7 @@ impl Model {
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let limits = (max_steps, max_events, max_reaction);
-        let way = (mode, branches.unwrap_or_default(), prefer);
+        let way = (mode, branches.unwrap_or_default(), prefer, choice("impacts", impacts)?);
         let motion = MotionQuestion { until, way, steps: (tolerance, longest_step), limits, all_branches };
         motion.computed(py, self, &Watch::new(time_limit, progress)?)
     }

@@ -9,12 +9,13 @@ use pyo3::prelude::*;
 use slideway::SimulateOptions;
 use slideway::fault::{Fault, FaultKind};
 use slideway::mechanism::Mechanism;
+use slideway::motion::ImpactLaw;
 
 /// A motion as it is asked for.
 pub(super) struct MotionQuestion<'a, 'py> {
     pub(super) until: &'a Bound<'py, PyAny>,
-    /// The mode in which it begins, its branches, counted from 1, and what is preferred after them.
-    pub(super) way: (Option<&'a str>, Vec<i64>, &'a str),
+    /// The mode in which it begins, its branches, counted from 1, what is preferred after them, and the law of impacts.
+    pub(super) way: (Option<&'a str>, Vec<i64>, &'a str, ImpactLaw),
     /// Tolerance and longest step.
     pub(super) steps: (f64, Option<&'a Bound<'py, PyAny>>),
     /// Most steps and events, and the greatest reaction.
@@ -42,7 +43,7 @@ impl<'py> MotionQuestion<'_, 'py> {
         if end <= start {
             return Err(refused(Fault::general(FaultKind::NothingToSimulate { start, end }).into()));
         }
-        let (mode, branches, prefer) = self.way;
+        let (mode, branches, prefer, impacts) = self.way;
         let (tolerance, longest_step) = self.steps;
         let (steps, events, reaction) = self.limits;
         let longest_step = longest_step.map(|step| model.time(py, "longest_step", step)).transpose()?;
@@ -54,6 +55,7 @@ impl<'py> MotionQuestion<'_, 'py> {
             .reaction_limit(reaction)
             .branches(from_zero(branches)?)
             .prefers_sliding(prefers_sliding(prefer)?)
+            .impacts(impacts)
             .with_events_of(mechanism);
         match mode {
             Some(mode) => options.initial_of(mode, mechanism).map_err(refused),

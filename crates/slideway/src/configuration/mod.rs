@@ -238,6 +238,25 @@ impl<T: Real> Configuration<T> {
         (tangent.dot(&(block - guide)), tangent.dot(&relative))
     }
 
+    /// How far the rim of a disc has slipped on its face since the drawing (m): `u . (block - guide) + R (theta_B - theta_A)`, and
+    /// on a round face `(R_B + R_A) (psi_B - psi)`, where `psi_B = (R_B theta_B + R_A theta_A)/(R_B + R_A)` is the turn of the line
+    /// between both centres if it rolls, `psi` that line's turn, with a negative `R_A` of a hole. That is known up to whole
+    /// turns: the second number.
+    pub(crate) fn slipped(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> (T, Option<T>) {
+        let Some(round) = &slider.round else {
+            let turned = self.angle(slider.block) - self.angle(slider.guide);
+            return (self.sliding(mechanism, slider).0 + slider.rim() * turned, None);
+        };
+        let radii = [slider.rim(), if round.inside { -round.radius } else { round.radius }];
+        let (ends, sum) = (round_ends(slider, round), radii[0] + radii[1]);
+        let rolled = |(end, radius): (&Attachment<T>, T)| radius / sum * self.angle(end.frame);
+        let psi = ends.iter().zip(radii).map(rolled).fold(T::zero(), |one, other| one + other);
+        let rolling = Pose::new(Vector2::zeros(), psi).turned(ends[0].position - ends[1].position);
+        let line = self.position(mechanism, &ends[0]) - self.position(mechanism, &ends[1]);
+        let angle = rot90(line).dot(&rolling).atan2(line.dot(&rolling));
+        (sum * angle, Some(sum * T::exactly(std::f64::consts::TAU)))
+    }
+
     /// How far a block is beyond the beginning of a pad (m), and the rate of that (m/s).
     pub(crate) fn depth(&self, mechanism: &Mechanism<T>, pad: &Pad<T>) -> [T; 2] {
         let Some(slider) = mechanism.slider(pad.joint) else { return [T::zero(); 2] };

@@ -115,6 +115,8 @@ pub trait SliderKind: Copy + sealed::Sealed {
     const TYPE: &'static str;
     #[doc(hidden)]
     const CONTACTS: usize;
+    #[doc(hidden)]
+    const IMPACTS: Option<&'static str>;
 }
 
 /// The kinds with a contact at the front and one at the rear.
@@ -137,10 +139,10 @@ mod sealed {
     pub trait Sealed {}
 }
 
-/// Defines the kinds: the name of the handle, that of the kind, the type in the model file, the number of contacts, and what it
-/// shares with other kinds.
+/// Defines the kinds: the name of the handle, that of the kind, the type in the model file, the number of contacts, the table of
+/// stops if its impacts are at these, and what it shares with other kinds.
 macro_rules! kinds {
-    ($($(#[$doc:meta])* $handle:ident = $kind:ident, $type:literal, $contacts:literal: $($trait:ident),*;)*) => {
+    ($($(#[$doc:meta])* $handle:ident = $kind:ident, $type:literal, $contacts:literal, $impacts:expr; $($trait:ident),*;)*) => {
         /// The kinds of sliding joints.
         pub mod kind {
             $($(#[$doc])*
@@ -152,6 +154,7 @@ macro_rules! kinds {
         impl SliderKind for kind::$kind {
             const TYPE: &'static str = $type;
             const CONTACTS: usize = $contacts;
+            const IMPACTS: Option<&'static str> = $impacts;
         }
         $(impl $trait for kind::$kind {})*
         $(#[$doc])*
@@ -161,19 +164,19 @@ macro_rules! kinds {
 
 kinds! {
     /// A block in a guide: a joint with two contacts.
-    BlockSlider = Block, "block_slider", 2: TwoContacts, HasLength, BetweenFaces, OnLine;
+    BlockSlider = Block, "block_slider", 2, Some("stop"); TwoContacts, HasLength, BetweenFaces, OnLine;
     /// A slider pressed on one side along its whole length: a joint with one contact.
-    GuidedSlider = Guided, "guided_slider", 1: OneContact, HasLength, BetweenFaces, OnLine;
+    GuidedSlider = Guided, "guided_slider", 1, Some("stop"); OneContact, HasLength, BetweenFaces, OnLine;
     /// A pin in a slot: a joint with one contact.
-    PinInSlot = Pin, "pin_in_slot", 1: OneContact, OnLine;
+    PinInSlot = Pin, "pin_in_slot", 1, Some("stop"); OneContact, OnLine;
     /// A block on a face, which both of its corners may leave: a joint with two contacts.
-    BlockOnFace = OnFace, "block_on_face", 2: TwoContacts, HasLength, OnLine, MayLiftOff;
+    BlockOnFace = OnFace, "block_on_face", 2, None; TwoContacts, HasLength, OnLine, MayLiftOff;
     /// A corner on a face, which it may leave: a joint with one contact.
-    CornerOnFace = Corner, "corner_on_face", 1: OneContact, OnLine, MayLiftOff;
+    CornerOnFace = Corner, "corner_on_face", 1, None; OneContact, OnLine, MayLiftOff;
     /// A disc on a face, which it may leave: a joint with one contact.
-    DiscOnFace = Disc, "disc_on_face", 1: OneContact, MayLiftOff;
+    DiscOnFace = Disc, "disc_on_face", 1, None; OneContact, MayLiftOff;
     /// A disc on a disc or in a hole, which it may leave: a joint with one contact.
-    DiscOnDisc = Discs, "disc_on_disc", 1: OneContact, MayLiftOff;
+    DiscOnDisc = Discs, "disc_on_disc", 1, None; OneContact, MayLiftOff;
 }
 
 impl OnLine for kind::Disc {
@@ -207,6 +210,18 @@ impl<'d, K: SliderKind> SliderBuilder<'d, K> {
         self
     }
 
+    /// Coefficient of restitution, from 0 to 1: of impacts on the faces of what may lift off (default: 0), else of stops at both
+    /// ends of the travel.
+    pub fn restitution(mut self, restitution: impl Into<Quantity>) -> Self {
+        let table = self.table();
+        let of_impacts = match K::IMPACTS {
+            Some(stop) => table.inner(stop),
+            None => table,
+        };
+        of_impacts.set("restitution", restitution.into());
+        self
+    }
+
     /// The handle.
     pub fn id(self) -> Slider<K> {
         self.handle
@@ -233,12 +248,6 @@ impl<'d, K: OnLine> SliderBuilder<'d, K> {
     /// Limits of the displacement (m).
     pub fn travel(self, limits: [impl Into<Quantity>; 2]) -> Self {
         self.set("travel", quantity::pair(limits))
-    }
-
-    /// Stops at both ends of the travel, with a coefficient of restitution from 0 to 1.
-    pub fn restitution(mut self, restitution: impl Into<Quantity>) -> Self {
-        self.table().inner("stop").set("restitution", restitution.into());
-        self
     }
 }
 

@@ -83,6 +83,19 @@ impl<T: Real> ConstraintRow<T> {
         }
     }
 
+    /// Replaces it by the row that gives the acceleration of sliding where a joint rubs.
+    pub(crate) fn set_sliding(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        slider: &Slider<T>,
+    ) {
+        self.clear();
+        let tangent = configuration.tangent(mechanism, slider);
+        let place = middle(mechanism, configuration, slider) - rot90(tangent) * slider.rim();
+        self.add_relative(configuration, slider, (place, tangent));
+    }
+
     /// Adds sign * axis . (acceleration of the material point of `frame` at `place`).
     ///
     /// The acceleration is a_c + alpha x r - omega^2 r; its last term goes to the right-hand side.
@@ -205,9 +218,7 @@ pub(super) fn sliding<T: Real>(
     slider: &Slider<T>,
 ) -> ConstraintRow<T> {
     let mut row = ConstraintRow::empty();
-    let tangent = configuration.tangent(mechanism, slider);
-    let place = middle(mechanism, configuration, slider) - rot90(tangent) * slider.rim();
-    row.add_relative(configuration, slider, (place, tangent));
+    row.set_sliding(mechanism, configuration, slider);
     row
 }
 

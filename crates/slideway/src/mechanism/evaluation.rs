@@ -260,6 +260,7 @@ impl<T: Real> Evaluation<'_, T> {
                 .map(|pad| [pad.length.map_or(length, |length| self.value(length)), self.value(pad.width)]),
             face,
             opens: contact.opens,
+            restitution: contact.restitution.map_or(T::zero(), |restitution| self.value(restitution)),
             gap: T::zero(),
         }
     }

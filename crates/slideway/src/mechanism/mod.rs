@@ -205,6 +205,8 @@ pub struct Contact<T = f64> {
     /// Whether it lifts off its face in place of pressing another one; with it open the mode problem has what is
     /// a negative normal force of others.
     pub opens: bool,
+    /// Coefficient of restitution of its impacts, if it lifts off.
+    pub restitution: T,
     /// Its gap in the drawing (m): zero, unless it is apart from its face from the start.
     pub gap: T,
 }

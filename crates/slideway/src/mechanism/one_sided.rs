@@ -175,19 +175,6 @@ impl<T: Real> Mechanism<T> {
         Err(Fault::new(FaultKind::OneSided { question, contacts }, first.place.clone()).into())
     }
 
-    /// Refuses discs at rest in motions, as they may roll.
-    ///
-    /// # Errors
-    /// A fault that names them, if there are some.
-    pub(crate) fn check_no_disc_at_rest(&self, rests: impl Fn(usize) -> bool) -> Result<(), Faults> {
-        let is_disc = |contact: &ContactId| {
-            self.slider(self.contacts[contact.index()].joint).is_some_and(Slider::is_disc)
-        };
-        let discs: Vec<ContactId> =
-            self.one_sided().filter(|contact| rests(contact.index()) && is_disc(contact)).collect();
-        self.refuse(&discs, |contacts| FaultKind::DiscAtRest { contacts })
-    }
-
     fn refuse(
         &self,
         contacts: &[ContactId],

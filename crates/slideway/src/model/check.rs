@@ -2,7 +2,7 @@
 //! between values, and how its parts are connected.
 
 use super::{
-    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, Slider, SliderKind, Stop, Touches,
+    Along, BODY_LIMIT, Contact, Formula, Joint, JointKind, LoadKind, Model, Slider, SliderKind, Touches,
 };
 use crate::expression::{Dimension, Inferred, Names, Symbol};
 use crate::fault::{Fault, FaultKind, Faults, Place, Source};
@@ -410,7 +410,7 @@ impl Model {
             };
             self.check_static_friction(slider, &value, faults);
             check_direction(&slider.along, &joint.place, &value, faults);
-            for restitution in slider.stops.into_iter().flatten().filter_map(Stop::restitution) {
+            for restitution in slider.restitutions() {
                 let formula = self.formula(restitution);
                 if let Some(value) = value(restitution).filter(|value| *value > 1.0) {
                     let what = formula.what.to_string();

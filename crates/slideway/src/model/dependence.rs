@@ -13,7 +13,7 @@
 //! A product such as weight or stiffness times elongation is affine if one of its factors is and the other is
 //! constant.
 
-use super::{ForceValue, Gravity, HingeFriction, Inertia, JointKind, LoadKind, Model, Moment, Slider, Stop};
+use super::{ForceValue, Gravity, HingeFriction, Inertia, JointKind, LoadKind, Model, Moment, Slider};
 use crate::expression::{Degree, Symbol, Values};
 use crate::ids::FormulaId;
 use std::collections::BTreeSet;
@@ -248,8 +248,7 @@ impl Places<'_> {
         let pads: Vec<FormulaId> = pads.flat_map(|pad| pad.length.into_iter().chain([pad.width])).collect();
         let travel = self.model.joints.iter().flat_map(|joint| match &joint.kind {
             JointKind::Slider(slider) => {
-                let stops = slider.stops.into_iter().flatten().filter_map(Stop::restitution);
-                slider.travel.into_iter().flatten().chain(stops).collect()
+                slider.travel.into_iter().flatten().chain(slider.restitutions()).collect()
             }
             JointKind::Hinge(_) => Vec::new(),
         });

@@ -237,6 +237,9 @@ pub(super) struct ContactTable {
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
     pub(super) misalignment: Option<Quantity>,
+    /// The part of its closing velocity with which it bounces, which `schema.rs` has.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) restitution: Option<Quantity>,
     /// Area in contact, for the bearing pressure: { length = .., width = .. }; a guided slider's has the length of
     /// its pressed face unless it is given.
     pub(super) pad: Option<PadTable>,

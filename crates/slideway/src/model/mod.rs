@@ -335,6 +335,8 @@ pub struct Contact {
     pub play: Option<FormulaId>,
     /// How far the guide's line is displaced there.
     pub misalignment: Option<FormulaId>,
+    /// The part of its closing velocity with which it leaves its face after an impact.
+    pub restitution: Option<FormulaId>,
     /// Its area, for the bearing pressure.
     pub pad: Option<Pad>,
     /// Which face of a press fit it is.
@@ -350,6 +352,14 @@ pub struct Pad {
     pub length: Option<FormulaId>,
     /// Its width.
     pub width: FormulaId,
+}
+
+impl Slider {
+    /// The coefficients of restitution of its stops and of its contacts that may lift off.
+    pub(crate) fn restitutions(&self) -> impl Iterator<Item = FormulaId> + '_ {
+        let contacts = self.contacts.iter().chain(&self.apart).filter_map(|contact| contact.restitution);
+        self.stops.into_iter().flatten().filter_map(Stop::restitution).chain(contacts)
+    }
 }
 
 impl Contact {

@@ -119,6 +119,9 @@ struct CornerTable {
     mu_static: Option<Quantity>,
     /// Stiffness of the contact (N/m).
     stiffness: Option<Quantity>,
+    /// Coefficient of restitution, from 0 to 1: the part of the velocity with which it reaches its face that it has when
+    /// it leaves it again, or less, since an impact never returns more work than it has taken. Default: 0.
+    restitution: Option<Quantity>,
 }
 
 /// A table that has some keys of others.

@@ -49,7 +49,7 @@ pub use decision::thorough::Thorough;
 pub use following::{simulate, simulate_with};
 pub use moving::cause::{Cause, CauseKind};
 pub use moving::equations::Drift;
-pub use options::{Crossing, EventFunction, SimulateOptions, UserEvent};
+pub use options::{Crossing, EventFunction, ImpactLaw, SimulateOptions, UserEvent};
 pub use record::event::{Event, modes_in_words, phase_in_words};
 pub use record::history::{
     ContactSample, End, Energy, HingeSample, History, PhaseInterval, Reader, Sample, Statistics,

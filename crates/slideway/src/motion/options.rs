@@ -1,10 +1,12 @@
 //! What a simulation is asked for, and what it may cost.
 
+use crate::choice::Choice;
 use crate::configuration::Configuration;
 use crate::expression::Expression;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::mechanism::{Mechanism, Quantity};
 use crate::model::CrossingDirection;
+use serde::Serialize;
 
 /// What a simulation is asked for, and what it may cost.
 #[derive(Debug, Clone)]
@@ -37,6 +39,28 @@ pub struct SimulateOptions {
     /// Whether at a branching behind the list the phase is taken in which the fewest joints stick, instead of
     /// the first: what could wedge itself at rest then slides on as long as it can.
     pub prefers_sliding: bool,
+    /// What friction does in impacts on faces.
+    pub impacts: ImpactLaw,
+}
+
+/// What friction does in an impact on a face.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum ImpactLaw {
+    /// It opposes the slip at each moment of the course of the impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary
+    /// Part, chapter IV).
+    #[default]
+    Course,
+    /// It opposes the slip after the impact (J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988).
+    Moreau,
+}
+
+impl Choice for ImpactLaw {
+    const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
+        (Self::Course, "course", "Friction opposes the slip at each moment of the impact"),
+        (Self::Moreau, "moreau", "Friction opposes the slip after the impact, as Siconos and much of the literature have it"),
+    ];
 }
 
 impl SimulateOptions {
@@ -53,6 +77,7 @@ impl SimulateOptions {
             initial: None,
             branches: Vec::new(),
             prefers_sliding: false,
+            impacts: ImpactLaw::default(),
         }
     }
 
@@ -126,6 +151,13 @@ impl SimulateOptions {
     #[must_use]
     pub fn prefers_sliding(mut self, prefers: bool) -> Self {
         self.prefers_sliding = prefers;
+        self
+    }
+
+    /// With another law of impacts on faces.
+    #[must_use]
+    pub fn impacts(mut self, law: ImpactLaw) -> Self {
+        self.impacts = law;
         self
     }
 

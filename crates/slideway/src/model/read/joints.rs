@@ -32,6 +32,7 @@ pub(super) struct ReadFriction {
     stiffness: Option<FormulaId>,
     play: Option<FormulaId>,
     misalignment: Option<FormulaId>,
+    restitution: Option<FormulaId>,
     pad: Option<Pad>,
     carried_by: Option<CarriedBy>,
 }
@@ -47,6 +48,7 @@ impl ReadFriction {
             stiffness: self.stiffness.or(joint.stiffness),
             play: self.play.or(joint.play),
             misalignment: self.misalignment.or(joint.misalignment),
+            restitution: self.restitution.or(joint.restitution),
             pad: self.pad.or(joint.pad),
             carried_by: self.carried_by,
         }
@@ -280,9 +282,22 @@ impl Reader<'_> {
         let play = quantity(&written.play, Wanted::constant(of("play"), Dimension::LENGTH));
         let misalignment =
             quantity(&written.misalignment, Wanted::moving(of("misalignment"), Dimension::LENGTH));
+        let restitution = Wanted::constant(of("restitution"), Dimension::NONE).not_negative();
+        let restitution = quantity(&written.restitution, restitution);
         let ContactTable { preload_line, carried_by, .. } = *written;
         let pad = written.pad.as_ref().map(|pad| self.pad(pad, has_face, name, span));
-        ReadFriction { mu, mu_static, preload, preload_line, stiffness, play, misalignment, pad, carried_by }
+        ReadFriction {
+            mu,
+            mu_static,
+            preload,
+            preload_line,
+            stiffness,
+            play,
+            misalignment,
+            restitution,
+            pad,
+            carried_by,
+        }
     }
 
     fn pad(&mut self, pad: &PadTable, has_face: bool, name: &str, span: &Span) -> Pad {
@@ -324,6 +339,7 @@ impl Reader<'_> {
             stiffness: friction.stiffness,
             play: friction.play,
             misalignment: friction.misalignment,
+            restitution: friction.restitution,
             pad: friction.pad,
             face: None,
             opens: false,

@@ -29,6 +29,9 @@ pub(in crate::motion) fn determined_forces(
     configuration: &Configuration,
     phase: &Phase,
 ) -> Result<DeterminedForces, Faults> {
+    if (0..phase.contacts.len()).any(|k| phase.is_open(mechanism, k)) {
+        return super::lifting::determined_forces(mechanism, configuration, phase);
+    }
     let instant = Instant::new(mechanism, configuration)?;
     instant.check(phase)?;
     let stopped = vec![false; instant.rubbing()];

@@ -15,6 +15,7 @@ use nalgebra::DVector;
 use std::borrow::Cow;
 
 const STICKS: &str = "every joint sticks: no friction follows the normal forces";
+const ROLLS: &str = "a disc rolls";
 const IN_GAP: &str = "a contact is between its faces";
 const OUT_OF_RANGE: &str = "a coefficient is beyond the range of floating point";
 
@@ -58,6 +59,13 @@ fn examine<T>(
     let sticks = |joint: usize| phase.joints[joint] == JointPhase::Sticking;
     if !phase.joints.is_empty() && (0..phase.joints.len()).all(sticks) {
         return Err(STICKS);
+    }
+    let rolls = |joint: &usize| {
+        sticks(*joint)
+            && instant.mechanism.slider(instant.joints[*joint].id).is_some_and(Slider::is_disc)
+    };
+    if (0..phase.joints.len()).any(|joint| rolls(&joint)) {
+        return Err(ROLLS);
     }
     let sliding_gap = (0..phase.contacts.len()).any(|k| {
         phase.contacts[k] == ContactPhase::PreloadGap

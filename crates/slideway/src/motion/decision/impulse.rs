@@ -76,6 +76,14 @@ impl<'s> Impulses<'s> {
         }
     }
 
+    /// Puts the velocities of sliding joints after the impulses in the place of their changes: what sticks has none, and friction
+    /// opposes the others.
+    pub(super) fn put_velocities_after(&mut self, before: &[f64]) {
+        for (joint, velocity) in before.iter().enumerate().take(self.instant.joints.len()) {
+            self.outputs.base[self.instant.sliding_output(joint)] += velocity / self.speeds[joint];
+        }
+    }
+
     /// The velocities of the sliding joints and hinges with friction (m/s), exactly zero where they are only rounding.
     pub(super) fn velocities(&self) -> Vec<f64> {
         let velocities = (0..self.instant.rubbing()).map(|number| self.instant.velocity(number));

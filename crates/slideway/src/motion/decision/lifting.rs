@@ -16,7 +16,7 @@ use super::parts::SAME;
 use super::rules::{Continuation, Continuations, EventInstant};
 use super::sticking::phase_state;
 use super::successors::{Successor, Successors};
-use super::{MOST_STATES, PhaseBound, Standing};
+use super::{DeterminedForces, MOST_STATES, PhaseBound, Standing};
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
@@ -94,12 +94,6 @@ impl<'m> Touching<'m> {
         let apart = self.is_apart();
         let signs: Vec<f64> =
             event.signs.iter().zip(apart).map(|(sign, apart)| if apart { 1.0 } else { *sign }).collect();
-        let joint_rests = |k: usize| {
-            let joint = self.mechanism.contacts[k].joint;
-            let mut sliders = crate::pattern::phase::sliding_joints(&self.mechanism).into_iter();
-            sliders.position(|slider| slider == joint).is_some_and(|index| signs[index] == 0.0)
-        };
-        self.mechanism.check_no_disc_at_rest(joint_rests)?;
         let previous = event.previous.filter(|phase| phase.open(self.whole) == self.open);
         let previous = previous.map(|phase| self.part_of(phase));
         let place = |contact: &ContactId| self.kept.iter().position(|&k| k == contact.index()).map(ContactId);
@@ -265,19 +259,17 @@ fn candidate(
     }
 }
 
-/// The normal force of each contact in a phase in which joints stick (N), as
-/// [`determined_forces`](super::determined_forces) has it; zero where it is open.
+/// The forces that statics determines in a phase, in the mechanism as it touches; zero where contacts are open.
 ///
 /// # Errors
 /// As [`determined_forces`](super::determined_forces).
-pub(super) fn normal_forces(
+pub(super) fn determined_forces(
     mechanism: &Mechanism,
     configuration: &Configuration,
     phase: &Phase,
-) -> Result<Vec<Option<f64>>, Faults> {
+) -> Result<DeterminedForces, Faults> {
     let touching = Touching::in_phase(mechanism, phase);
     let part = touching.part_of(phase);
     let forces = super::determined_forces(&touching.mechanism, configuration, &part)?;
-    let forces: Vec<Option<f64>> = forces.contacts.into_iter().map(|[normal, _]| normal).collect();
-    Ok(touching.of_all(&forces, Some(0.0)))
+    Ok(DeterminedForces { contacts: touching.of_all(&forces.contacts, [Some(0.0); 2]), ..forces })
 }

@@ -76,9 +76,6 @@ impl Decisions for Thorough {
         configuration: &Configuration,
         phase: &Phase,
     ) -> Result<Vec<Option<f64>>, Faults> {
-        if mechanism.has_one_sided() {
-            return super::lifting::normal_forces(mechanism, configuration, phase);
-        }
         let forces = super::determined_forces(mechanism, configuration, phase)?;
         Ok(forces.contacts.into_iter().map(|[normal, _]| normal).collect())
     }

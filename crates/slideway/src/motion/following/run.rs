@@ -31,7 +31,7 @@ const NEAR_FOLD: f64 = 1e-4;
 
 /// A simulation under way.
 pub(in crate::motion) struct Run<'a, 'm> {
-    options: &'a SimulateOptions,
+    pub(super) options: &'a SimulateOptions,
     decisions: &'a mut dyn Decisions,
     pub(super) smooth: Smooth<'a, 'm>,
     pub(super) phase: Option<Phase>,

@@ -1,6 +1,7 @@
 //! A motion as a table: one row for each time.
 
 use crate::configuration::unit;
+use crate::ids::ContactId;
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::{DeterminedForces, determined_forces};
@@ -161,6 +162,9 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
         add(format!("{}.normal_force", contact.name), "N");
         add(format!("{}.friction_force", contact.name), "N");
         add(format!("{}.sliding_velocity", contact.name), "m/s");
+        if contact.opens {
+            add(format!("{}.gap", contact.name), "m");
+        }
     }
     for circle in &mechanism.friction_circles {
         let name = &mechanism.joints[circle.joint.index()].name;
@@ -191,8 +195,11 @@ fn values(mechanism: &Mechanism, sample: &Sample, forces: &DeterminedForces, row
         let acceleration = terms.sum::<f64>() - equation.right_hand_side;
         row.extend([Some(*value), Some(*rate), Some(acceleration)]);
     }
-    for (contact, [normal_force, friction]) in sample.contacts.iter().zip(&forces.contacts) {
+    for (k, (contact, [normal_force, friction])) in sample.contacts.iter().zip(&forces.contacts).enumerate() {
         row.extend([*normal_force, *friction, Some(contact.sliding_velocity)]);
+        if mechanism.contacts[k].opens {
+            row.push(Some(configuration.gap(mechanism, ContactId(k))[0]));
+        }
     }
     for (hinge, [x, y, couple]) in sample.hinges.iter().zip(&forces.hinges) {
         row.extend([x.zip(*y).map(|(x, y)| x.hypot(y)), *couple, Some(hinge.spin)]);

@@ -1,26 +1,36 @@
-//! Impacts of contacts that may lift off and have reached their faces, without restitution.
+//! Impacts of contacts that may lift off and have reached their faces, along their course.
 //!
 //! ```text
-//! pushes   N_i' >= 0, the rate of its gap goes to zero         is left   N_i = 0, the rate of its gap ends at zero or above
+//! pushes   N_i' >= 0, the rate of its gap goes to its end         is left   N_i = 0, the rate of its gap ends there or above
 //! ```
 //!
-//! Each set of contacts that are left is tried, with the mechanism as it touches without them. The contacts that push are rows
-//! of it, and the rates of their gaps go to zero in proportion; what belongs to that without friction stands in the place of the
-//! loads, and friction is that of [`impulses`](super::super::impulse). This lasts until something that slides stops, and is then
-//! decided anew. A contact that would leave for a flight which rounding of places hides has come to rest: the rate of its gap
-//! goes to zero, too.
+//! Where a contact has closed with the velocity `u`, the rate of its gap ends at `e u` with its coefficient of restitution `e`, else
+//! at zero. Each set of contacts that are left is tried, with the mechanism as it touches without them. The contacts that push
+//! are rows of it, and the rates of their gaps go to their ends in proportion; what belongs to that without friction stands in the
+//! place of the loads, and friction is that of [`impulses`](super::super::impulse). This lasts until something that slides stops, and
+//! is then decided anew. Where pushing makes gaps close faster, since friction turns it round, that goes on until something
+//! stops. A contact that would leave for a flight which rounding of places hides has come to rest: the rate of its gap goes to
+//! zero, too.
+//!
+//! By Moreau's law friction opposes the slip after the impact in place of that at each moment: then an impact is one such part,
+//! with velocities afterwards in the place of their changes, and all its outcomes are found.
+//!
+//! The impact is over at latest when the contacts have returned the work that they have taken: where they would return more, all
+//! `e` are reduced in proportion until they return as much, so that kinetic energy never grows.
 
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
+use crate::kinetics::Reaction;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::assessment::Assessment;
-use crate::motion::decision::impulse::{AT_REST, Impulses};
+use crate::motion::decision::impulse::{AT_REST, Impulses, jumped};
 use crate::motion::decision::instant::Instant;
 use crate::motion::decision::joints::TOUCHES;
 use crate::motion::decision::lifting::{Touching, least_flight, subsets};
 use crate::motion::decision::parts::SAME;
 use crate::motion::moving::energy::kinetic;
+use crate::motion::options::ImpactLaw;
 use crate::pattern::{ContactPhase, JointPhase};
 use crate::progress::Work;
 use nalgebra::DVector;
@@ -32,14 +42,6 @@ pub(in crate::motion) struct Landing {
     pub(in crate::motion) energy_lost: f64,
 }
 
-/// How velocities change until all gaps that close have ceased to, or something stops.
-struct Part {
-    /// The jumps of all velocities of the bodies.
-    jumps: DVector<f64>,
-    /// The part of the whole change after which something stops that has slid; at most one.
-    length: f64,
-}
-
 /// The impact of the contacts whose gaps are zero and close.
 ///
 /// # Errors
@@ -48,20 +50,22 @@ struct Part {
 pub(in crate::motion) fn landing(
     mechanism: &Mechanism,
     configuration: &Configuration,
+    law: ImpactLaw,
     work: Work<'_>,
 ) -> Result<Landing, Faults> {
     let least = least_flight(mechanism, configuration)?;
-    let mut resting = Vec::new();
+    let mut impact = Impact { mechanism, before: configuration, resting: Vec::new(), part: 1.0, law, work };
     loop {
-        let after = course(mechanism, configuration, (&resting, work))?;
-        let rests = |(k, rate): &(usize, f64)| !resting.contains(k) && *rate > 0.0 && *rate <= least;
+        let after = impact.outcome()?;
+        let rests =
+            |(k, rate): &(usize, f64)| !impact.resting.contains(k) && *rate > 0.0 && *rate <= least;
         let further: Vec<usize> =
             rates(mechanism, &after).into_iter().filter(rests).map(|(k, _)| k).collect();
         if further.is_empty() {
             let energy_lost = kinetic(mechanism, configuration) - kinetic(mechanism, &after);
             return Ok(Landing { after, energy_lost });
         }
-        resting.extend(further);
+        impact.resting.extend(further);
     }
 }
 
@@ -72,137 +76,301 @@ fn rates(mechanism: &Mechanism, configuration: &Configuration) -> Vec<(usize, f6
     touching.map(|(k, [_, rate])| (k, rate)).collect()
 }
 
-/// The state after an impact in which some contacts come to rest.
-fn course(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    (resting, work): (&[usize], Work<'_>),
-) -> Result<Configuration, Faults> {
-    let mut after = configuration.clone();
-    let fastest = rates(mechanism, configuration).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
-    for _ in 0..4 * mechanism.joints.len() + 2 {
-        let touching = rates(mechanism, &after);
-        let is_over = |(k, rate): &(usize, f64)| {
-            let ends = if resting.contains(k) { -rate.abs() } else { *rate };
-            ends >= -AT_REST * fastest
-        };
-        if touching.iter().all(is_over) {
-            return Ok(after);
+/// An impact of a mechanism.
+struct Impact<'m> {
+    mechanism: &'m Mechanism,
+    before: &'m Configuration,
+    /// The contacts that come to rest at their faces.
+    resting: Vec<usize>,
+    /// The part of all restitutions with which contacts leave their faces.
+    part: f64,
+    law: ImpactLaw,
+    work: Work<'m>,
+}
+
+/// A contact whose gap is zero, along an impact.
+#[derive(Clone, Copy)]
+struct Touch {
+    contact: usize,
+    /// The rate of its gap (m/s).
+    rate: f64,
+    /// That with which the impact is over for it (m/s).
+    end: f64,
+}
+
+/// The course of an impact until all gaps have the rates of its end.
+struct Course {
+    after: Configuration,
+    /// What the contacts have returned of the work that they have taken, less that work (J).
+    returned: f64,
+}
+
+/// How velocities change until the rates of all gaps that are pushed have their ends, or something stops.
+struct Part {
+    /// The jumps of all velocities of the bodies.
+    jumps: DVector<f64>,
+    /// The contacts that push.
+    pushes: Vec<Push>,
+    /// The part of the whole change after which something stops that has slid; infinite if the change has no end of its own, and
+    /// nothing stops.
+    length: f64,
+}
+
+/// What a contact does that pushes.
+struct Push {
+    contact: usize,
+    /// Its normal impulse (N s).
+    impulse: f64,
+    sticks: bool,
+}
+
+/// Where the rates of the gaps of contacts that push go.
+#[derive(Clone, Copy, PartialEq)]
+enum Towards {
+    /// To their ends.
+    TheEnd,
+    /// Away from them, since friction turns round what pushing does.
+    Wedged,
+}
+
+impl Impact<'_> {
+    /// The state afterwards, in which contacts have returned no more work than they have taken.
+    fn outcome(&mut self) -> Result<Configuration, Faults> {
+        self.part = 1.0;
+        match self.course() {
+            Ok(course) if course.returned <= 0.0 || self.law == ImpactLaw::Moreau => return Ok(course.after),
+            Err(faults) if !self.bounces() => return Err(faults),
+            _ => {}
         }
-        let part = part(mechanism, &after, (&touching, resting, work))?;
-        after = moved(&after, &part, mechanism);
-    }
-    Err(wedges(mechanism, &rates(mechanism, &after)))
-}
-
-fn moved(configuration: &Configuration, part: &Part, mechanism: &Mechanism) -> Configuration {
-    let mut after = super::super::impulse::jumped(configuration, part.jumps.as_slice(), part.length);
-    after.measure(mechanism);
-    after
-}
-
-fn names(mechanism: &Mechanism, touching: &[(usize, f64)]) -> Vec<String> {
-    let closing = touching.iter().any(|(_, rate)| *rate < 0.0);
-    let named = touching.iter().filter(|(_, rate)| *rate < 0.0 || !closing);
-    named.map(|(k, _)| mechanism.contacts[*k].name.to_string()).collect()
-}
-
-fn wedges(mechanism: &Mechanism, touching: &[(usize, f64)]) -> Faults {
-    Fault::general(FaultKind::ImpactWedges { joints: names(mechanism, touching) }).into()
-}
-
-/// The next part of an impact, the only one over all sets of contacts that are left.
-fn part(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    (touching, resting, work): (&[(usize, f64)], &[usize], Work<'_>),
-) -> Result<Part, Faults> {
-    let all: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
-    let apart = all.into_iter().filter(|k| !touching.iter().any(|(other, _)| other == k));
-    let apart: Vec<usize> = apart.collect();
-    let options: Vec<usize> = touching.iter().map(|(k, _)| *k).filter(|k| !resting.contains(k)).collect();
-    let mut found: Vec<Part> = Vec::new();
-    for left in subsets(&options)? {
-        let other = Touching::new(mechanism, &apart, &left);
-        let other = part_with(&other, configuration, (touching, resting, work))?;
-        let bodies = 3 * mechanism.bodies.len();
-        let differs = |part: &Part, other: &Part| {
-            let [one, other] = [part, other].map(|part| part.jumps.rows(0, bodies).into_owned());
-            (&one - &other).amax() > SAME * one.amax().max(other.amax())
-        };
-        for other in other {
-            if found.iter().all(|part| differs(part, &other)) {
-                found.push(other);
+        self.part = 0.0;
+        let (mut best, mut beyond) = (self.course()?, 1.0);
+        let mut least = 0.0;
+        for _ in 0..f64::MANTISSA_DIGITS {
+            self.part = f64::midpoint(least, beyond);
+            match self.course() {
+                Ok(course) if course.returned <= 0.0 => (best, least) = (course, self.part),
+                _ => beyond = self.part,
             }
         }
+        Ok(best.after)
     }
-    if found.len() > 1 {
-        return Err(Fault::general(FaultKind::SeveralImpacts { joints: names(mechanism, touching) }).into());
-    }
-    found.pop().ok_or_else(|| wedges(mechanism, touching))
-}
 
-/// The parts with a set of contacts that are left.
-fn part_with(
-    touching: &Touching<'_>,
-    configuration: &Configuration,
-    (rates, resting, work): (&[(usize, f64)], &[usize], Work<'_>),
-) -> Result<Vec<Part>, Faults> {
-    let mechanism = &touching.mechanism;
-    let instant = Instant::new(mechanism, configuration)?;
-    let rate_of = |k: usize| rates.iter().find(|(other, _)| *other == k).map_or(0.0, |(_, rate)| *rate);
-    // The jumps without friction: the gaps of what pushes cease to close.
-    let mut base = DVector::zeros(instant.influence.frictionless.len());
-    let answers = instant.equations.gap_accelerations();
-    for (contact, answer) in mechanism.one_sided().zip(answers) {
-        base.axpy(-rate_of(touching.number(contact)), &answer, 1.0);
+    /// Returns whether a contact that closes has a restitution.
+    fn bounces(&self) -> bool {
+        self.law == ImpactLaw::Course && self.touches(self.before).iter().any(|touch| touch.end > 0.0)
     }
-    let fastest = rates.iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
-    let mut impulses = Impulses::new(&instant, work);
-    impulses.count_velocities_of(fastest);
-    let velocities = impulses.velocities();
-    let stopped: Vec<bool> = velocities.iter().map(|velocity| *velocity == 0.0).collect();
-    let rests = |k: usize| instant.joint_of(k).is_some_and(|joint| stopped[joint]);
-    mechanism.check_no_disc_at_rest(rests)?;
-    let gap = |joint: usize, number: usize| {
-        let slider = mechanism.slider(instant.joints[joint].id);
-        let gap = slider.and_then(|slider| configuration.gaps(mechanism, slider).nth(number));
-        gap.map_or(0.0, |[_, rate]| rate)
-    };
-    impulses.put_base(&base, gap);
-    let options: Vec<Vec<JointPhase>> =
-        velocities.iter().enumerate().map(|(joint, velocity)| impulses.options(joint, *velocity)).collect();
-    let mut question = impulses.question(&vec![0.0; velocities.len()], &stopped);
-    for contact in mechanism.one_sided() {
-        if !resting.contains(&touching.number(contact)) {
-            question.sides[contact.index()] = ContactPhase::CLOSED.to_vec();
-        }
-    }
-    let mut all: Vec<Option<Assessment>> = vec![None];
-    for group in &instant.groups {
-        let found = impulses.admissible(&question, &options, group)?;
-        if found.unsolved > 0 {
-            let joints = names(touching.whole, rates);
-            return Err(Fault::general(FaultKind::UnsolvedImpact { joints }).into());
-        }
-        let with = |before: &Option<Assessment>| {
-            let joined = found.list.iter().map(|one| match before {
-                Some(before) => Some(before.clone().with(group, one)),
-                None => Some(Assessment::nothing(&one.phase).with(group, one)),
-            });
-            joined.collect::<Vec<_>>()
+
+    /// The contacts whose gaps are zero.
+    fn touches(&self, configuration: &Configuration) -> Vec<Touch> {
+        let touch = |(contact, rate)| {
+            let id = ContactId(contact);
+            let bounces = !self.resting.contains(&contact);
+            let closed = (-self.before.gap(self.mechanism, id)[1]).max(0.0);
+            let restitution = if bounces { self.mechanism.contacts[contact].restitution } else { 0.0 };
+            Touch { contact, rate, end: self.part * restitution * closed }
         };
-        all = all.iter().flat_map(with).collect();
+        rates(self.mechanism, configuration).into_iter().map(touch).collect()
     }
-    let part = |state: Assessment| {
-        let jumps = &base + impulses.jumps(&state);
-        let until = |(number, velocity): (usize, &f64)| {
-            let slides = state.phase.of(number) != JointPhase::Sticking && instant.may_stick(number);
-            let part = -velocity / instant.change(number, &jumps);
-            (slides && *velocity != 0.0 && part > 0.0).then_some(part)
+
+    /// The course of the impact.
+    fn course(&self) -> Result<Course, Faults> {
+        let mut course = Course { after: self.before.clone(), returned: 0.0 };
+        let fastest = rates(self.mechanism, self.before).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
+        for _ in 0..4 * self.mechanism.joints.len() + 2 {
+            let touches = self.touches(&course.after);
+            let is_over = |touch: &Touch| {
+                let short = touch.rate - touch.end;
+                let short = if self.resting.contains(&touch.contact) { -short.abs() } else { short };
+                short >= -AT_REST * fastest
+            };
+            if touches.iter().all(is_over) {
+                return Ok(course);
+            }
+            self.go_on(&mut course, &touches)?;
+            if self.law == ImpactLaw::Moreau {
+                return Ok(course);
+            }
+        }
+        Err(self.wedges(&self.touches(&course.after)))
+    }
+
+    /// Follows the next part of a course.
+    fn go_on(&self, course: &mut Course, touches: &[Touch]) -> Result<(), Faults> {
+        let part = self.part_of(&course.after, touches)?;
+        let after = self.moved(&course.after, &part);
+        for Push { contact, impulse, .. } in &part.pushes {
+            let rate = |configuration: &Configuration| configuration.gap(self.mechanism, ContactId(*contact))[1];
+            course.returned += impulse * part.length * f64::midpoint(rate(&course.after), rate(&after));
+        }
+        course.after = after;
+        Ok(())
+    }
+
+    fn moved(&self, configuration: &Configuration, part: &Part) -> Configuration {
+        let mut after = jumped(configuration, part.jumps.as_slice(), part.length);
+        after.measure(self.mechanism);
+        after
+    }
+
+    fn names(&self, touches: &[Touch]) -> Vec<String> {
+        let closing = touches.iter().any(|touch| touch.rate < 0.0);
+        let named = touches.iter().filter(|touch| touch.rate < 0.0 || !closing);
+        named.map(|touch| self.mechanism.contacts[touch.contact].name.to_string()).collect()
+    }
+
+    fn wedges(&self, touches: &[Touch]) -> Faults {
+        Fault::general(FaultKind::ImpactWedges { joints: self.names(touches) }).into()
+    }
+
+    /// The next part of an impact, the only one over all sets of contacts that are left.
+    fn part_of(&self, configuration: &Configuration, touches: &[Touch]) -> Result<Part, Faults> {
+        let touch = |k: &usize| touches.iter().any(|touch| touch.contact == *k);
+        let apart: Vec<usize> =
+            self.mechanism.one_sided().map(ContactId::index).filter(|k| !touch(k)).collect();
+        let options = touches.iter().map(|touch| touch.contact).filter(|k| !self.resting.contains(k));
+        let sets = subsets(&options.collect::<Vec<_>>())?;
+        for towards in [Towards::TheEnd, Towards::Wedged] {
+            let mut found: Vec<Part> = Vec::new();
+            for left in &sets {
+                let touching = Touching::new(self.mechanism, &apart, left);
+                for other in self.parts_with((&touching, left), configuration, (touches, towards))? {
+                    if found.iter().all(|part| self.differs(part, &other)) {
+                        found.push(other);
+                    }
+                }
+            }
+            if found.len() > 1 {
+                let joints = self.names(touches);
+                let outcomes = found.iter().map(|part| self.in_words(configuration, part, touches)).collect();
+                return Err(Fault::general(FaultKind::SeveralImpacts { joints, outcomes }).into());
+            }
+            if let Some(part) = found.pop() {
+                return Ok(part);
+            }
+        }
+        Err(self.wedges(touches))
+    }
+
+    /// What a part of an impact does, such as "left lifts off, right slides (1.2 J lost)".
+    fn in_words(&self, configuration: &Configuration, part: &Part, touches: &[Touch]) -> String {
+        let mechanism = self.mechanism;
+        let after = self.moved(configuration, part);
+        let does = |touch: &Touch| {
+            let does = match part.pushes.iter().find(|push| push.contact == touch.contact) {
+                None => "lifts off",
+                Some(push) if push.sticks => "sticks",
+                Some(_) => "slides",
+            };
+            format!("{} {does}", mechanism.contacts[touch.contact].name)
         };
-        let length = velocities.iter().enumerate().filter_map(until).fold(1.0, f64::min);
-        Part { jumps, length }
-    };
-    Ok(all.into_iter().flatten().map(part).collect())
+        let does: Vec<String> = touches.iter().map(does).collect();
+        let lost = mechanism.units.of("J").brief(kinetic(mechanism, configuration) - kinetic(mechanism, &after));
+        format!("{} ({lost} lost)", does.join(", "))
+    }
+
+    fn differs(&self, part: &Part, other: &Part) -> bool {
+        let bodies = 3 * self.mechanism.bodies.len();
+        let [one, other] = [part, other].map(|part| part.jumps.rows(0, bodies).into_owned());
+        (&one - &other).amax() > SAME * one.amax().max(other.amax())
+    }
+
+    /// The parts with a set of contacts that are left.
+    fn parts_with(
+        &self,
+        (touching, left): (&Touching<'_>, &[usize]),
+        configuration: &Configuration,
+        (touches, towards): (&[Touch], Towards),
+    ) -> Result<Vec<Part>, Faults> {
+        let mechanism = &touching.mechanism;
+        let instant = Instant::new(mechanism, configuration)?;
+        let short_of = |k: usize| {
+            let touch = touches.iter().find(|touch| touch.contact == k);
+            touch.map_or(0.0, |touch| touch.rate - touch.end)
+        };
+        let sign = if towards == Towards::TheEnd { 1.0 } else { -1.0 };
+        let mut base = DVector::zeros(instant.influence.frictionless.len());
+        let answers = instant.equations.gap_accelerations();
+        for (contact, answer) in mechanism.one_sided().zip(answers) {
+            base.axpy(-sign * short_of(touching.number(contact)), &answer, 1.0);
+        }
+        let fastest = touches.iter().map(|touch| (touch.rate - touch.end).abs()).fold(0.0, f64::max);
+        let mut impulses = Impulses::new(&instant, self.work);
+        impulses.count_velocities_of(fastest);
+        let velocities = impulses.velocities();
+        let stopped: Vec<bool> = velocities.iter().map(|velocity| *velocity == 0.0).collect();
+        // What pushing makes close faster does not leave what it does not push.
+        let greatest = if towards == Towards::TheEnd { f64::NEG_INFINITY } else { 0.0 };
+        let short = |joint: usize, number: usize| {
+            let of_joint = |k: &&usize| self.mechanism.contacts[**k].joint == instant.joints[joint].id;
+            left.iter().filter(of_joint).nth(number).map_or(0.0, |k| short_of(*k).max(greatest))
+        };
+        impulses.put_base(&base, short);
+        let (options, stopped) = match self.law {
+            ImpactLaw::Course => (velocities.clone(), stopped),
+            ImpactLaw::Moreau => {
+                impulses.put_velocities_after(&velocities);
+                (vec![0.0; velocities.len()], vec![true; velocities.len()])
+            }
+        };
+        let states = self.states(&impulses, (touching, &options, &stopped), touches)?;
+        let length = |state: &Assessment, jumps: &DVector<f64>| {
+            let until = |(number, velocity): (usize, &f64)| {
+                let slides = state.phase.of(number) != JointPhase::Sticking && instant.may_stick(number);
+                let part = -velocity / instant.change(number, jumps);
+                (slides && *velocity != 0.0 && part > 0.0).then_some(part)
+            };
+            let most = if towards == Towards::TheEnd { 1.0 } else { f64::INFINITY };
+            if self.law == ImpactLaw::Moreau {
+                return most;
+            }
+            velocities.iter().enumerate().filter_map(until).fold(most, f64::min)
+        };
+        let push = |contact: ContactId, state: &Assessment, jumps: &DVector<f64>| {
+            let index = instant.equations.layout.reaction(Reaction::Normal(contact))?;
+            let joint = instant.joint_of(contact.index())?;
+            let sticks = state.phase.of(joint) == JointPhase::Sticking;
+            Some(Push { contact: touching.number(contact), impulse: jumps[index], sticks })
+        };
+        let part = |state: Assessment| {
+            let jumps = &base + impulses.jumps(&state);
+            let pushes = mechanism.one_sided().filter_map(|contact| push(contact, &state, &jumps)).collect();
+            let length = length(&state, &jumps);
+            Part { jumps, pushes, length }
+        };
+        Ok(states.into_iter().map(part).filter(|part| part.length.is_finite()).collect())
+    }
+
+    /// The admissible states of all groups in which the contacts that are not left push.
+    fn states(
+        &self,
+        impulses: &Impulses<'_>,
+        (touching, velocities, stopped): (&Touching<'_>, &[f64], &[bool]),
+        touches: &[Touch],
+    ) -> Result<Vec<Assessment>, Faults> {
+        let options: Vec<Vec<JointPhase>> =
+            velocities.iter().enumerate().map(|(joint, velocity)| impulses.options(joint, *velocity)).collect();
+        let mut question = impulses.question(&vec![0.0; velocities.len()], stopped);
+        for contact in touching.mechanism.one_sided() {
+            if !self.resting.contains(&touching.number(contact)) {
+                question.sides[contact.index()] = ContactPhase::CLOSED.to_vec();
+            }
+        }
+        let mut all: Vec<Option<Assessment>> = vec![None];
+        for group in &impulses.instant.groups {
+            let found = impulses.admissible(&question, &options, group)?;
+            if found.unsolved > 0 {
+                let joints = self.names(touches);
+                return Err(Fault::general(FaultKind::UnsolvedImpact { joints }).into());
+            }
+            let with = |before: &Option<Assessment>| {
+                let joined = found.list.iter().map(|one| match before {
+                    Some(before) => Some(before.clone().with(group, one)),
+                    None => Some(Assessment::nothing(&one.phase).with(group, one)),
+                });
+                joined.collect::<Vec<_>>()
+            };
+            all = all.iter().flat_map(with).collect();
+        }
+        Ok(all.into_iter().flatten().collect())
+    }
 }

@@ -240,7 +240,7 @@ impl<'c> Collision<'c> {
 
     /// The fault of several outcomes.
     fn several(&self) -> Faults {
-        Fault::general(FaultKind::SeveralImpacts { joints: self.joints() }).into()
+        Fault::general(FaultKind::SeveralImpacts { joints: self.joints(), outcomes: Vec::new() }).into()
     }
 
     /// Velocities closer to zero than this are rounding (m/s).

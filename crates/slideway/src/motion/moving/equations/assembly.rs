@@ -45,9 +45,9 @@ impl Equations<'_> {
         }
         let first = self.layout.len();
         for index in 0..self.stuck.len() {
-            let Some(kind) = self.kind_of(self.stuck[index].what) else { continue };
-            let touching = self.touching.as_deref().unwrap_or(self.mechanism);
-            self.row.set_coordinate(touching, &self.configuration, kind);
+            if !self.set_stuck_row(self.stuck[index].what) {
+                continue;
+            }
             put_row(&mut self.system, &mut self.unknowns, &self.row, first + index);
             self.rows.extend_from_slice(&self.row.entries);
             self.row_ends.push(self.rows.len());

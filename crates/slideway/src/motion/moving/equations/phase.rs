@@ -3,7 +3,7 @@
 use super::{Equations, Rubbing, Sticks, Stuck};
 use crate::ids::{Frame, JointId};
 use crate::kinetics::{ConstraintRow, Reaction};
-use crate::mechanism::CoordinateKind;
+use crate::mechanism::{CoordinateKind, Mechanism, Slider};
 use crate::pattern::{ContactPhase, JointPhase, Law, Phase};
 
 /// A sticking joint whose row is, but for this part of it, a combination of the others is held by them
@@ -78,10 +78,7 @@ impl Equations<'_> {
             is_new(&self.row);
         }
         for what in self.sticking(phase) {
-            let Some(kind) = self.kind_of(what) else { continue };
-            let touching = self.touching.as_deref().unwrap_or(mechanism);
-            self.row.set_coordinate(touching, &self.configuration, kind);
-            if is_new(&self.row) {
+            if self.set_stuck_row(what) && is_new(&self.row) {
                 self.stuck.push(Stuck { what, place: self.place_of(what) });
             }
         }
@@ -106,7 +103,27 @@ impl Equations<'_> {
         sliders.chain(hinges.map(|(index, _)| Sticks::Hinge(index))).collect()
     }
 
-    /// The coordinate that is held where something sticks.
+    /// Writes the row of what does not move where something sticks; `false` if there is none.
+    pub(super) fn set_stuck_row(&mut self, what: Sticks) -> bool {
+        let touching = self.touching.as_deref().unwrap_or(self.mechanism);
+        if let Some(disc) = disc(touching, what) {
+            self.row.set_sliding(touching, &self.configuration, disc);
+            return true;
+        }
+        let Some(kind) = self.kind_of(what) else { return false };
+        self.row.set_coordinate(touching, &self.configuration, kind);
+        true
+    }
+
+    /// How far what sticks is from where it does so (m or rad); of discs that have turned whole times, the least.
+    pub(super) fn off_place(&self, stuck: &Stuck) -> f64 {
+        let off = self.place_of(stuck.what) - stuck.place;
+        let slipped = disc(self.touching(), stuck.what)
+            .and_then(|disc| self.configuration.slipped(self.touching(), disc).1);
+        slipped.map_or(off, |turn| off - turn * (off / turn).round())
+    }
+
+    /// The coordinate that is held where something sticks, if it is not a disc.
     pub(super) fn kind_of(&self, what: Sticks) -> Option<CoordinateKind> {
         match what {
             Sticks::Slider(joint) => Some(CoordinateKind::Slide(joint)),
@@ -116,6 +133,9 @@ impl Equations<'_> {
 
     /// The value of that coordinate (m or rad).
     pub(super) fn place_of(&self, what: Sticks) -> f64 {
+        if let Some(disc) = disc(self.touching(), what) {
+            return self.configuration.slipped(self.touching(), disc).0;
+        }
         match self.kind_of(what) {
             Some(CoordinateKind::Slide(joint)) => {
                 let slider = self.touching().slider(joint).expect("sliding joints slide");
@@ -135,6 +155,12 @@ impl Equations<'_> {
         let stuck = self.stuck.iter_mut().filter(|stuck| stuck.what == Sticks::Slider(joint));
         stuck.for_each(|stuck| stuck.place = displacement);
     }
+}
+
+/// The disc that sticks, if it is one.
+fn disc(mechanism: &Mechanism, what: Sticks) -> Option<&Slider> {
+    let Sticks::Slider(joint) = what else { return None };
+    mechanism.slider(joint).filter(|slider| slider.is_disc())
 }
 
 fn norm(vector: &[f64]) -> f64 {

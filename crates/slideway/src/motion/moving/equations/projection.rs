@@ -69,8 +69,7 @@ impl Equations<'_> {
                 .slider(*joint)
                 .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
             None => {
-                let stuck = &self.stuck[index - self.layout.reactions().len()];
-                self.place_of(stuck.what) - stuck.place
+                self.off_place(&self.stuck[index - self.layout.reactions().len()])
             }
         };
         (gap, self.gap_scale(index))
