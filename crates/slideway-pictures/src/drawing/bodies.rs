@@ -2,7 +2,7 @@
 
 use super::Painter;
 use super::hidden::Bar;
-use super::looks::{self, Look, lean};
+use super::looks::{self, Look};
 use super::outline::{Local, capsule, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
 use super::slide::{BAR, SUPPORT, Slide};
@@ -206,7 +206,7 @@ impl Painter<'_> {
 
     /// The centre of a rectangle and its axes, along its first and its second side.
     fn plate_axes(&self, body: BodyId) -> Local {
-        let angle = self.configuration.angle(Frame::Body(body)) + lean(self.mechanism, body);
+        let angle = self.configuration.angle(Frame::Body(body)) + self.mechanism.lean(body);
         let along = self.view.direction(Vector2::new(angle.cos(), angle.sin()));
         Local { origin: self.centre(body), along, across: turned(along) }
     }

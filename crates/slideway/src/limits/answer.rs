@@ -82,7 +82,8 @@ impl Naming {
             let mode = joint_mode_in_words(&self.mechanism, slider, tangent, &signs);
             JointMode { name: name.to_owned(), mode, start: None }
         };
-        self.sliders().map(one).collect()
+        let touching = self.sliders().filter(|(.., slider)| !slider.contacts.is_empty());
+        touching.map(one).collect()
     }
 
     /// The contact modes of all joints in a pattern, in words.

@@ -3,6 +3,7 @@
 //! Second stage of the pipeline: [`Model`] in, [`Mechanism`] out. Positions are those of the reference
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
+mod corner;
 mod evaluation;
 mod excess;
 mod one_sided;
@@ -21,6 +22,7 @@ use crate::model::{
 };
 use crate::units::Units;
 use evaluation::Evaluation;
+pub(crate) use corner::BareCorner;
 pub use excess::Excess;
 use nalgebra::Vector2;
 pub use pad::Pad;

@@ -3,7 +3,7 @@
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
     Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, Solution, SolveReport, SpeedChange,
-    Status,
+    Status, Verdict,
 };
 use crate::units::brief;
 
@@ -257,8 +257,19 @@ impl SolveReport {
 
     /// "It can move in 3 ways: push needs 36.36, 41 or 52 N."
     fn ways_in_words(&self) -> String {
-        let several =
-            format!("{} solutions: from this state it can go on in {} ways", self.count, self.count);
+        let is_taken = |solution: &&Solution| solution.attainability.verdict != Verdict::Unattainable;
+        let unstable = self.solutions.iter().filter(|solution| !is_taken(solution)).count();
+        let ways = match self.solutions.len() - unstable {
+            _ if unstable == 0 => format!("{} ways", self.count),
+            1 => "one way".to_owned(),
+            ways => format!("{ways} ways"),
+        };
+        let leaves = match unstable {
+            0 => "",
+            1 => "; the other state is unstable",
+            _ => "; the other states are unstable",
+        };
+        let several = format!("{} solutions: from this state it can go on in {ways}{leaves}", self.count);
         let efforts = |drive: &Drive| {
             let unit = self.model.units.of(drive.unit);
             let of =

@@ -17,6 +17,7 @@
 mod lengths;
 
 use crate::configuration::{Configuration, widest_gap_of_drawing};
+use crate::expression::Symbol;
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame, JointId};
 use crate::influence::Influence;
@@ -91,7 +92,12 @@ type State<'a> = LazyCell<Option<Configuration>, Box<dyn FnOnce() -> Option<Conf
 pub fn warnings(model: &Model) -> Faults {
     let mut found = Faults::default();
     found.extend(model.doubts.iter().cloned());
-    found.extend(angles(model).into_iter().filter_map(|angle| bare_angle(model, angle)));
+    // A setting that is in doubt already is not told twice.
+    let is_told = |angle: &FormulaId| {
+        model.doubts.iter().any(|doubt| doubt.place == Some(model.formula(*angle).origin.place()))
+    };
+    let angles = angles(model).into_iter().filter(|angle| !is_told(angle));
+    found.extend(angles.filter_map(|angle| bare_angle(model, angle)));
     found.extend(lengths::doubtful_lengths(model));
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
@@ -146,7 +152,7 @@ fn warning(doubt: Doubt, place: Place) -> Fault {
     Fault::new(FaultKind::Doubt(doubt), place)
 }
 
-/// The formulas that are angles.
+/// The formulas that are angles, parameters under a sine, cosine or tangent among them.
 fn angles(model: &Model) -> Vec<FormulaId> {
     let of_along = |along: &Along| if let Along::Angle(angle) = along { Some(*angle) } else { None };
     let joints = model.joints.iter().filter_map(|joint| match &joint.kind {
@@ -164,12 +170,21 @@ fn angles(model: &Model) -> Vec<FormulaId> {
     });
     let coordinates = model.coordinates.iter().filter(|coordinate| coordinate.kind.is_angle());
     let values = coordinates.flat_map(|coordinate| [coordinate.drawn_at, coordinate.value]);
-    joints.chain(loads).chain(drives).chain(values.flatten()).collect()
+    let under = model.formulas.iter().flat_map(|formula| formula.expression.angles());
+    let parameters = under.filter_map(|symbol| match symbol {
+        Symbol::Parameter(parameter) => Some(model.parameters[parameter].value),
+        _ => None,
+    });
+    let mut all: Vec<FormulaId> =
+        joints.chain(loads).chain(drives).chain(values.flatten()).chain(parameters).map(|id| model.source_of(id)).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 /// A bare number beyond a full turn as an angle, or as the parameter that it is.
 fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
-    let formula = model.formula(model.source_of(angle));
+    let formula = model.formula(angle);
     let value = formula.expression.bare_number().filter(|value| value.abs() > FULL_TURN)?;
     let what = formula.what.to_string();
     Some(warning(Doubt::BareAngle { what, value }, formula.origin.place()))

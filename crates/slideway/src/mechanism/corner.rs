@@ -1,0 +1,173 @@
+//! The corners of bodies as they are drawn, and those with which a body may reach a face where the model has no contact.
+
+use super::{Body, Contact, Mechanism, Shape, Slider, length, rot90};
+use crate::ids::{BodyId, Frame, JointId};
+use crate::model::SliderKind;
+use crate::model::outline::polygon;
+use nalgebra::Vector2;
+use std::f64::consts::FRAC_PI_2;
+
+/// Places closer to each other than this part of the size of the mechanism are one: outlines are typed for looks.
+const SAME_PLACE: f64 = 1e-6;
+
+/// A corner or disc of a body that may reach a face on which the body touches elsewhere, and that has no contact there.
+#[derive(Debug, Clone)]
+pub(crate) struct BareCorner {
+    /// Its name.
+    pub(crate) name: String,
+    /// The joint whose face it is.
+    pub(crate) joint: JointId,
+    /// What the joint would be there ...
+    pub(crate) slider: Slider,
+    /// ... and its contact, which is apart from the face in the drawing.
+    pub(crate) contact: Contact,
+}
+
+impl BareCorner {
+    /// The type of a joint that gives it a contact.
+    pub(crate) fn wanted(&self) -> &'static str {
+        match (&self.slider.round, self.slider.is_disc()) {
+            (Some(_), _) => "disc_on_disc",
+            (None, true) => "disc_on_face",
+            (None, false) => "corner_on_face",
+        }
+    }
+}
+
+impl Mechanism {
+    /// Returns the corners of a body that is drawn with corners (m, in the drawing): of its outline, or of its rectangle.
+    pub fn corners(&self, id: BodyId) -> Option<Vec<Vector2<f64>>> {
+        let body = &self.bodies[id.index()];
+        if !body.outline.is_empty() {
+            return Some(polygon(&body.outline));
+        }
+        let Some(Shape::Rectangle([width, height])) = body.shape else { return None };
+        let (sin, cos) = self.lean(id).sin_cos();
+        let (along, across) =
+            (Vector2::new(cos, sin) * (0.5 * width), Vector2::new(-sin, cos) * (0.5 * height));
+        let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+        Some(signs.map(|(a, b)| body.centre_of_mass + along * a + across * b).to_vec())
+    }
+
+    /// Returns by how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment of
+    /// inertia leaves that open.
+    pub fn lean(&self, body: BodyId) -> f64 {
+        let of_body =
+            |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
+        let mut all = self.sliders().map(|(_, slider)| slider);
+        let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
+        let angle = tangent.y.atan2(tangent.x);
+        angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
+    }
+
+    /// The corners without contact of each body against each face on which it has one.
+    pub(crate) fn bare_corners(&self) -> Vec<BareCorner> {
+        let faces: Vec<(JointId, &Slider)> =
+            self.sliders().filter(|(_, slider)| self.may_lift_off(slider)).collect();
+        let mut found = Vec::new();
+        for (index, &(joint, face)) in faces.iter().enumerate() {
+            let told = |(_, other): &(JointId, &Slider)| other.travel.is_none() && self.is_one_face(face, other);
+            if faces[..index].iter().any(told) {
+                continue;
+            }
+            let Some(body) = face.block.body() else { continue };
+            let of_face = faces.iter().filter(|(_, other)| self.is_one_face(face, other));
+            let contacts: Vec<(Vector2<f64>, f64)> = of_face
+                .flat_map(|(_, slider)| self.all_of(slider).map(|one| (one.position(slider), slider.rim())))
+                .collect();
+            let near = SAME_PLACE * self.size;
+            let has_contact = |(place, radius): &(Vector2<f64>, f64)| {
+                contacts.iter().any(|(centre, rim)| length(place - centre) + radius <= rim + near)
+            };
+            let bare = self.extremes(body).into_iter().filter(|extreme| !has_contact(extreme));
+            found.extend(bare.filter_map(|extreme| self.bare_corner((joint, face), body, extreme)));
+        }
+        found
+    }
+
+    /// Corners, ends and rims of a body as it is drawn: centres and radii (m). Its points count where it has neither outline nor
+    /// shape.
+    fn extremes(&self, id: BodyId) -> Vec<(Vector2<f64>, f64)> {
+        let body = &self.bodies[id.index()];
+        let sharp = |place| (place, 0.0);
+        match (self.corners(id), body.shape) {
+            (Some(corners), _) => corners.into_iter().map(sharp).collect(),
+            (None, Some(Shape::Bar(ends))) => ends.map(sharp).to_vec(),
+            (None, Some(Shape::Disc(radius))) => vec![(body.centre_of_mass, radius)],
+            (None, _) => body.points.iter().map(|(_, place)| sharp(*place)).collect(),
+        }
+    }
+
+    /// All contacts of a joint that may lift off, those that are apart, too.
+    fn all_of<'m>(&'m self, slider: &'m Slider) -> impl Iterator<Item = &'m Contact> {
+        slider.contacts.iter().map(|contact| &self.contacts[contact.index()]).chain(&slider.apart)
+    }
+
+    /// Returns whether two joints of one block have one face, each perhaps a part of it.
+    fn is_one_face(&self, one: &Slider, other: &Slider) -> bool {
+        let near = SAME_PLACE * self.size;
+        let of_same = (one.block, one.guide) == (other.block, other.guide);
+        of_same
+            && match (&one.round, &other.round) {
+                (None, None) => {
+                    let off = rot90(one.tangent).dot(&(other.at - one.at)) + self.off_face(one) - self.off_face(other);
+                    length(one.tangent - other.tangent) <= SAME_PLACE && off.abs() <= near
+                }
+                (Some(round), Some(beside)) => {
+                    let apart = Vector2::from(round.centre) - Vector2::from(beside.centre);
+                    length(apart) <= near && (round.radius - beside.radius).abs() <= near
+                }
+                _ => false,
+            }
+    }
+
+    /// How far the place of a joint is from its straight face in the drawing (m).
+    fn off_face(&self, slider: &Slider) -> f64 {
+        slider.rim() + self.all_of(slider).next().map_or(0.0, |contact| contact.gap)
+    }
+
+    /// A corner against a face; none where the body overlaps the face in the drawing already.
+    fn bare_corner(
+        &self,
+        (joint, face): (JointId, &Slider),
+        body: BodyId,
+        (place, radius): (Vector2<f64>, f64),
+    ) -> Option<BareCorner> {
+        let gap = match &face.round {
+            None => rot90(face.tangent).dot(&(place - face.at)) + self.off_face(face) - radius,
+            Some(round) => {
+                let distance = length(place - Vector2::from(round.centre));
+                if round.inside { round.radius - radius - distance } else { distance - round.radius - radius }
+            }
+        };
+        if gap < -SAME_PLACE * self.size {
+            return None;
+        }
+        let contact = self.all_of(face).next()?;
+        let half = if face.kind == SliderKind::Block { face.length / 2.0 } else { 0.0 };
+        let along = face.tangent.dot(&(place - face.at));
+        let slider = Slider {
+            kind: SliderKind::Pin,
+            at: place,
+            height: 2.0 * radius,
+            travel: face.travel.map(|[least, greatest]| [least - half - along, greatest + half - along]),
+            ..face.clone()
+        };
+        let contact = Contact { offset: 0.0, gap, ..contact.clone() };
+        Some(BareCorner { name: self.name_of_corner(&self.bodies[body.index()], (place, radius)), joint, slider, contact })
+    }
+
+    /// "ladder.head", "the corner of ladder at (2 m, 3 m) in the drawing" or "the rim of wheel".
+    fn name_of_corner(&self, body: &Body, (place, radius): (Vector2<f64>, f64)) -> String {
+        if radius > 0.0 {
+            return format!("the rim of {}", body.name);
+        }
+        let is_here = |(_, point): &&(_, Vector2<f64>)| length(place - point) <= SAME_PLACE * self.size;
+        if let Some((point, _)) = body.points.iter().find(is_here) {
+            return format!("{}.{point}", body.name);
+        }
+        let unit = self.units.of("m");
+        let [x, y] = [place.x, place.y].map(|value| unit.brief(value));
+        format!("the corner of {} at ({x}, {y}) in the drawing", body.name)
+    }
+}
