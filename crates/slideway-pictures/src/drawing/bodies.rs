@@ -3,7 +3,7 @@
 use super::Painter;
 use super::hidden::Bar;
 use super::looks::{self, Look};
-use super::outline::{Local, capsule, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
+use super::outline::{Local, capsule, clipped, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
 use super::slide::{BAR, SUPPORT, Slide};
 use nalgebra::Vector2;
@@ -84,7 +84,7 @@ impl Painter<'_> {
             parts.extend(self.housings(body));
         }
         let other_parts = parts.len();
-        parts.extend(self.bars(body));
+        parts.extend(self.bars(body).into_iter().map(|bar| self.on_free_side(body, bar)));
         self.union(&parts);
         if !has_plate {
             self.channels(body);
@@ -269,6 +269,18 @@ impl Painter<'_> {
                 None => Vec::new(),
             },
         }
+    }
+
+    /// The part of a bar that is not in a face on which a corner of its body stands.
+    fn on_free_side(&self, body: BodyId, bar: Vec<Point>) -> Vec<Point> {
+        const FAR: f64 = 1e5;
+        let stands = |slide: &&Slide| {
+            let is_corner = slide.kind == SliderKind::Pin && !slide.is_disc && slide.round.is_none();
+            is_corner && slide.look == Look::Face(1.0) && slide.block_frame == Frame::Body(body)
+        };
+        self.sliders.iter().flatten().filter(stands).fold(bar, |bar, slide| {
+            clipped(&bar, &slide.guide.rectangle([-FAR, FAR], [-slide.half_channel(), FAR]))
+        })
     }
 
     /// Half the width of a bar: that of its guide if it slides along itself.

@@ -5,7 +5,7 @@ use crate::ids::{BodyId, Frame, JointId};
 use crate::model::SliderKind;
 use crate::model::outline::polygon;
 use nalgebra::Vector2;
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Places closer to each other than this part of the size of the mechanism are one: outlines are typed for looks.
 const SAME_PLACE: f64 = 1e-6;
@@ -60,6 +60,18 @@ impl Mechanism {
         angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
     }
 
+    /// Returns whether a joint is apart from a face that another joint of its block has, too.
+    pub fn is_apart_from_shared_face(&self, joint: JointId) -> bool {
+        let Some(slider) = self.slider(joint).filter(|slider| slider.contacts.is_empty()) else { return false };
+        let shares = |(other, face): (JointId, &Slider)| {
+            other != joint
+                && self.may_lift_off(face)
+                && self.is_one_face(slider, face)
+                && (other < joint || !face.contacts.is_empty())
+        };
+        self.sliders().any(shares)
+    }
+
     /// The corners without contact of each body against each face on which it has one.
     pub(crate) fn bare_corners(&self) -> Vec<BareCorner> {
         let faces: Vec<(JointId, &Slider)> =
@@ -85,8 +97,8 @@ impl Mechanism {
         found
     }
 
-    /// Corners, ends and rims of a body as it is drawn: centres and radii (m). Its points count where it has neither outline nor
-    /// shape.
+    /// Corners, ends and rims of a body as it is drawn: centres and radii (m). Where it has neither outline nor shape, those of its
+    /// points count that are not between others.
     fn extremes(&self, id: BodyId) -> Vec<(Vector2<f64>, f64)> {
         let body = &self.bodies[id.index()];
         let sharp = |place| (place, 0.0);
@@ -94,7 +106,11 @@ impl Mechanism {
             (Some(corners), _) => corners.into_iter().map(sharp).collect(),
             (None, Some(Shape::Bar(ends))) => ends.map(sharp).to_vec(),
             (None, Some(Shape::Disc(radius))) => vec![(body.centre_of_mass, radius)],
-            (None, _) => body.points.iter().map(|(_, place)| sharp(*place)).collect(),
+            (None, _) => {
+                let places: Vec<Vector2<f64>> = body.points.iter().map(|(_, place)| *place).collect();
+                let is_corner = |place: &&Vector2<f64>| is_corner(**place, &places, SAME_PLACE * self.size);
+                places.iter().filter(is_corner).map(|place| sharp(*place)).collect()
+            }
         }
     }
 
@@ -169,5 +185,29 @@ impl Mechanism {
         let unit = self.units.of("m");
         let [x, y] = [place.x, place.y].map(|value| unit.brief(value));
         format!("the corner of {} at ({x}, {y}) in the drawing", body.name)
+    }
+}
+
+/// Returns whether a place is a corner of what lies between several places, each nearer than `near` counting as it: in some
+/// directions, more than half of all, there is none of the others.
+fn is_corner(place: Vector2<f64>, places: &[Vector2<f64>], near: f64) -> bool {
+    let others = places.iter().map(|other| other - place).filter(|way| length(*way) > near);
+    let mut directions: Vec<f64> = others.map(|way| way.y.atan2(way.x)).collect();
+    directions.sort_unstable_by(f64::total_cmp);
+    let round = directions.first().map(|first| first + TAU);
+    let next = directions.iter().copied().skip(1).chain(round);
+    directions.is_empty() || directions.iter().zip(next).any(|(one, next)| next - one > PI + SAME_PLACE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_lies_between_others_is_no_corner() {
+        let places = [[0.0, 0.0], [1.0, 0.0], [0.5, 0.0], [1.0, 1.0], [0.7, 0.3]].map(Vector2::from);
+        let corners = places.iter().filter(|place| is_corner(**place, &places, 1e-9)).count();
+        assert_eq!(corners, 3);
+        assert!(is_corner(places[0], &places[..1], 1e-9) && is_corner(places[0], &places[..2], 1e-9));
     }
 }
