@@ -3263,7 +3263,7 @@ class WarningReport(Record):
 
     kind: str
     """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed",
-    "far_from_drawing", "great_friction", "wide_friction_circle" or "nothing_presses"."""
+    "far_from_drawing", "great_friction", "wide_friction_circle", "bare_corner" or "nothing_presses"."""
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""
     message: str

@@ -24,6 +24,11 @@ pub(crate) struct BareCorner {
 }
 
 impl BareCorner {
+    /// Returns whether it lies on the face in the drawing of a mechanism of this size.
+    pub(crate) fn is_on_face(&self, size: f64) -> bool {
+        self.contact.gap.abs() <= SAME_PLACE * size
+    }
+
     /// The type of a joint that gives it a contact.
     pub(crate) fn wanted(&self) -> &'static str {
         match (&self.slider.round, self.slider.is_disc()) {
@@ -92,7 +97,16 @@ impl Mechanism {
                 contacts.iter().any(|(centre, rim)| length(place - centre) + radius <= rim + near)
             };
             let bare = self.extremes(body).into_iter().filter(|extreme| !has_contact(extreme));
-            found.extend(bare.filter_map(|extreme| self.bare_corner((joint, face), body, extreme)));
+            let bare = bare.filter_map(|extreme| self.bare_corner((joint, face), body, extreme));
+            // What lies on the face between contacts is kept off it by them.
+            let places = contacts.iter().map(|(place, _)| place.dot(&face.tangent));
+            let [least, greatest] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], place| {
+                [least.min(place), greatest.max(place)]
+            });
+            let is_between = |corner: &BareCorner| {
+                corner.is_on_face(self.size) && (least..=greatest).contains(&corner.slider.at.dot(&face.tangent))
+            };
+            found.extend(bare.filter(|corner| !is_between(corner)));
         }
         found
     }

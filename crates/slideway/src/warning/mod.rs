@@ -22,7 +22,7 @@ use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
+use crate::mechanism::{BareCorner, Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
 use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
 use crate::report::number::number;
 use serde::Serialize;
@@ -45,7 +45,7 @@ const GREAT_FRICTION: f64 = 2.0;
 #[non_exhaustive]
 pub struct WarningReport {
     /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed", "far_from_drawing",
-    /// "great_friction", "wide_friction_circle" or "nothing_presses".
+    /// "great_friction", "wide_friction_circle", "bare_corner" or "nothing_presses".
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
     pub place: Option<WarningPlace>,
@@ -103,6 +103,7 @@ pub fn warnings(model: &Model) -> Faults {
         found.extend(great_friction(model));
         found.extend(wide_friction_circles(model, &mechanism));
         found.extend(gap_closed(model, &mechanism));
+        found.extend(bare_corners(&mechanism));
         // Assembled once, and only if one of them asks.
         let state: State<'_> = LazyCell::new(Box::new(|| Configuration::new(&mechanism).ok()));
         found.extend(far_from_drawing(model, &mechanism, &state));
@@ -242,6 +243,18 @@ fn nearest_hinge(mechanism: &Mechanism, joint: JointId) -> Option<(Frame, JointI
     });
     let apart = distances.filter(|(.., distance)| *distance > SAME_PLACE * mechanism.size);
     apart.min_by(|one, other| one.2.total_cmp(&other.2))
+}
+
+/// Corners that are drawn on a face on which their body stands, without a contact there.
+fn bare_corners(mechanism: &Mechanism) -> Vec<Fault> {
+    let on_face = mechanism.bare_corners().into_iter().filter(|corner| corner.is_on_face(mechanism.size));
+    let one = |corner: BareCorner| {
+        let wanted = corner.wanted();
+        let joint = &mechanism.joints[corner.joint.index()];
+        let doubt = Doubt::BareCorner { corner: corner.name, joint: joint.name.to_string(), wanted };
+        warning(doubt, joint.place.clone())
+    };
+    on_face.map(one).collect()
 }
 
 /// The joint that the drawing leaves most open, if that is no rounding.

@@ -357,8 +357,10 @@ impl<'a> Resting<'a> {
             told(Verdict::Unattainable)
         } else if mechanism.drives.is_empty() && !(0..states.len()).filter(is_closed).any(rubs) {
             told(Verdict::Attainable)
+        } else if sticks && !mechanism.drives.is_empty() {
+            not_computed("drives act beside contacts that stick")
         } else if sticks {
-            not_computed("some contacts stick while others slide, or drives act")
+            not_computed("some contacts stick while others slide")
         } else {
             let data = ProblemData { mechanism, influence, velocity_signs: &signs };
             let closed = Closed::new(data, (configuration, self.answer.equations), &open);
