@@ -326,7 +326,10 @@ fn a_ladder_ends_lying_on_the_floor() {
     let [time, _] = *landings(&lands).last().unwrap();
     let options = SimulateOptions::new(2.0);
     let end = slideway::motion::report(&lands, &options).end.words;
-    assert_eq!((&lands.end, end.as_str()), (&End::Finished, "It comes to rest at 1.03 s and stays so until 2 s."));
+    assert_eq!(
+        (&lands.end, end.as_str()),
+        (&End::Finished, "It comes to rest at 1.03 s and stays so until 2 s.")
+    );
     let (before, after) = text.split_once("[joints.landing]").unwrap();
     let bare = format!("{before}{}", &after[after.find("[coordinates").unwrap()..]);
     let ends = history(&bare, 2.0);

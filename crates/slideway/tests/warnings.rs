@@ -327,7 +327,11 @@ fn a_corner_on_a_face_without_contact() {
     let one = of_joint("type = \"corner_on_face\"\nat = \"A\"") + turn;
     let found = of_text(&one);
     assert_eq!(names(&found), ["bare_corner"]);
-    let expected = "the corner of box at (0.1 m, 0 m) in the drawing lies on the face of foot and has no contact there";
+    let expected =
+        "the corner of box at (0.1 m, 0 m) in the drawing lies on the face of foot and has no contact there";
     assert_eq!(found[0].0.to_string(), expected);
-    assert_eq!(names(&of_text(&of_joint("type = \"block_on_face\"\nat = \"M\"\nlength = \"0.2 m\""))), [""; 0]);
+    assert_eq!(
+        names(&of_text(&of_joint("type = \"block_on_face\"\nat = \"M\"\nlength = \"0.2 m\""))),
+        [""; 0]
+    );
 }

@@ -99,7 +99,8 @@ impl Painter<'_> {
         }
         // One face of a contact has one force.
         let acts_there = forces.normal != 0.0 && forces.normal.signum() == side.signum();
-        let from = if acts_there { self.pressed(slide, contact, forces) } else { self.face(slide, contact, side) };
+        let from =
+            if acts_there { self.pressed(slide, contact, forces) } else { self.face(slide, contact, side) };
         let direction = -slide.guide.along * (forces.friction.signum() * slide.action());
         let length = forces.friction.abs() * scale;
         let text = self.shown(forces.friction.abs(), "N");

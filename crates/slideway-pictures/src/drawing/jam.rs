@@ -73,8 +73,13 @@ impl Painter<'_> {
     /// The cones of all contacts that press, and their forces; with the line of the push and the overlap where there is one.
     pub(super) fn jam(&mut self) {
         let Some(scale) = self.options.force_scale else { return };
-        let cones: Vec<Cone> =
-            self.mechanism.contacts.iter().enumerate().filter_map(|(index, contact)| self.cone(ContactId(index), contact.mu)).collect();
+        let cones: Vec<Cone> = self
+            .mechanism
+            .contacts
+            .iter()
+            .enumerate()
+            .filter_map(|(index, contact)| self.cone(ContactId(index), contact.mu))
+            .collect();
         if let ([one, other], Some(push)) = (&cones[..], self.only_push())
             && let Some((meeting, sizes)) = meeting([one, other], push)
         {

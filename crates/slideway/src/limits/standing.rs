@@ -2,8 +2,8 @@
 //! and those at rest that may lift off have states of their own, so that no mode ends at a zero of a determinant. The answers at
 //! evenly spaced values are compared, and what changes between them is bisected.
 
-use super::rest::LEFT_OPEN;
 use super::found::{Elsewhere, Gap, Knowledge, Method, ModesFound, SameEnds, SingleValues};
+use super::rest::LEFT_OPEN;
 use super::varied::Varied;
 use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};

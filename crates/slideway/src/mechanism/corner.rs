@@ -57,8 +57,7 @@ impl Mechanism {
     /// Returns by how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment of
     /// inertia leaves that open.
     pub fn lean(&self, body: BodyId) -> f64 {
-        let of_body =
-            |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
+        let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
         let mut all = self.sliders().map(|(_, slider)| slider);
         let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
         let angle = tangent.y.atan2(tangent.x);
@@ -67,7 +66,9 @@ impl Mechanism {
 
     /// Returns whether a joint is apart from a face that another joint of its block has, too.
     pub fn is_apart_from_shared_face(&self, joint: JointId) -> bool {
-        let Some(slider) = self.slider(joint).filter(|slider| slider.contacts.is_empty()) else { return false };
+        let Some(slider) = self.slider(joint).filter(|slider| slider.contacts.is_empty()) else {
+            return false;
+        };
         let shares = |(other, face): (JointId, &Slider)| {
             other != joint
                 && self.may_lift_off(face)
@@ -83,8 +84,13 @@ impl Mechanism {
             self.sliders().filter(|(_, slider)| self.may_lift_off(slider)).collect();
         let mut found = Vec::new();
         for (index, &(joint, face)) in faces.iter().enumerate() {
-            let told = |(_, other): &(JointId, &Slider)| other.travel.is_none() && self.is_one_face(face, other);
-            if faces[..index].iter().any(told) {
+            // A part of a face that another joint has, too, is watched there.
+            let covers = |(_, other): &(JointId, &Slider)| {
+                let ([from, to], [least, greatest]) = (ends_of(face), ends_of(other));
+                let near = SAME_PLACE * self.size;
+                self.is_one_face(face, other) && least <= from + near && to - near <= greatest
+            };
+            if faces[..index].iter().any(covers) {
                 continue;
             }
             let Some(body) = face.block.body() else { continue };
@@ -100,11 +106,13 @@ impl Mechanism {
             let bare = bare.filter_map(|extreme| self.bare_corner((joint, face), body, extreme));
             // What lies on the face between contacts is kept off it by them.
             let places = contacts.iter().map(|(place, _)| place.dot(&face.tangent));
-            let [least, greatest] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], place| {
-                [least.min(place), greatest.max(place)]
-            });
+            let [least, greatest] = places
+                .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, greatest], place| {
+                    [least.min(place), greatest.max(place)]
+                });
             let is_between = |corner: &BareCorner| {
-                corner.is_on_face(self.size) && (least..=greatest).contains(&corner.slider.at.dot(&face.tangent))
+                corner.is_on_face(self.size)
+                    && (least..=greatest).contains(&corner.slider.at.dot(&face.tangent))
             };
             found.extend(bare.filter(|corner| !is_between(corner)));
         }
@@ -140,7 +148,8 @@ impl Mechanism {
         of_same
             && match (&one.round, &other.round) {
                 (None, None) => {
-                    let off = rot90(one.tangent).dot(&(other.at - one.at)) + self.off_face(one) - self.off_face(other);
+                    let off = rot90(one.tangent).dot(&(other.at - one.at)) + self.off_face(one)
+                        - self.off_face(other);
                     length(one.tangent - other.tangent) <= SAME_PLACE && off.abs() <= near
                 }
                 (Some(round), Some(beside)) => {
@@ -174,17 +183,21 @@ impl Mechanism {
             return None;
         }
         let contact = self.all_of(face).next()?;
-        let half = if face.kind == SliderKind::Block { face.length / 2.0 } else { 0.0 };
-        let along = face.tangent.dot(&(place - face.at));
+        let along = face.tangent.dot(&place);
         let slider = Slider {
             kind: SliderKind::Pin,
             at: place,
             height: 2.0 * radius,
-            travel: face.travel.map(|[least, greatest]| [least - half - along, greatest + half - along]),
+            travel: face.travel.map(|_| ends_of(face).map(|end| end - along)),
             ..face.clone()
         };
         let contact = Contact { offset: 0.0, gap, ..contact.clone() };
-        Some(BareCorner { name: self.name_of_corner(&self.bodies[body.index()], (place, radius)), joint, slider, contact })
+        Some(BareCorner {
+            name: self.name_of_corner(&self.bodies[body.index()], (place, radius)),
+            joint,
+            slider,
+            contact,
+        })
     }
 
     /// "ladder.head", "the corner of ladder at (2 m, 3 m) in the drawing" or "the rim of wheel".
@@ -200,6 +213,14 @@ impl Mechanism {
         let [x, y] = [place.x, place.y].map(|value| unit.brief(value));
         format!("the corner of {} at ({x}, {y}) in the drawing", body.name)
     }
+}
+
+/// Where a straight face begins and ends along its tangent in the drawing (m), infinite where it has no ends.
+fn ends_of(face: &Slider) -> [f64; 2] {
+    let half = if face.kind == SliderKind::Block { face.length / 2.0 } else { 0.0 };
+    let [least, greatest] = face.travel.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+    let at = face.tangent.dot(&face.at);
+    [at + least - half, at + greatest + half]
 }
 
 /// Returns whether a place is a corner of what lies between several places, each nearer than `near` counting as it: in some

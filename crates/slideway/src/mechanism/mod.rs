@@ -21,8 +21,8 @@ use crate::model::{
     Round, SliderKind, Stop,
 };
 use crate::units::Units;
-use evaluation::Evaluation;
 pub(crate) use corner::BareCorner;
+use evaluation::Evaluation;
 pub use excess::Excess;
 use nalgebra::Vector2;
 pub use pad::Pad;

@@ -176,8 +176,13 @@ fn angles(model: &Model) -> Vec<FormulaId> {
         Symbol::Parameter(parameter) => Some(model.parameters[parameter].value),
         _ => None,
     });
-    let mut all: Vec<FormulaId> =
-        joints.chain(loads).chain(drives).chain(values.flatten()).chain(parameters).map(|id| model.source_of(id)).collect();
+    let mut all: Vec<FormulaId> = joints
+        .chain(loads)
+        .chain(drives)
+        .chain(values.flatten())
+        .chain(parameters)
+        .map(|id| model.source_of(id))
+        .collect();
     all.sort_unstable();
     all.dedup();
     all

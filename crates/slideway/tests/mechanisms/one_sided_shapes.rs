@@ -1,7 +1,7 @@
 //! Contacts that may lift off, while they slide: discs on faces, on discs and in holes, contacts that are apart, and the examples of
 //! the book.
 
-use crate::answers::{assert_close, contact, mode, only, parameters, report_on, report_with};
+use crate::answers::{assert_close, contact, only, parameters, report_on, report_with};
 use crate::one_sided::{BOX, GRAVITY, fault, gap};
 use slideway::check::check;
 use slideway::fault::FaultKind;

@@ -72,7 +72,8 @@ fn a_single_contact_that_locks_has_its_forces() {
 #[test]
 fn what_is_apart_is_told_of_no_state() {
     let model = Model::parse(gallery::find("ladder").unwrap().text).unwrap();
-    let slips = hold(&model.with(&parameters(&[("climbed", "1")])).unwrap(), &HoldOptions::default()).unwrap();
+    let slips =
+        hold(&model.with(&parameters(&[("climbed", "1")])).unwrap(), &HoldOptions::default()).unwrap();
     let names: Vec<&str> = slips.releases[0].joints.iter().map(|joint| joint.name.as_str()).collect();
     assert_eq!(names, ["foot", "head"]);
     let answer = check(&model).unwrap().answer();

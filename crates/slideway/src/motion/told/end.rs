@@ -77,7 +77,8 @@ fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
     // What sticks may turn about the corner with which it does.
     let is_still = history.at_end().1.kinetic <= STILL * history.energy_scale;
-    let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest(&history.mechanism) && is_still);
+    let rest =
+        history.phases.last().filter(|interval| interval.phase.is_at_rest(&history.mechanism) && is_still);
     let Some(rest) = rest else {
         let bodies = 3 * history.mechanism.bodies.len();
         let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);

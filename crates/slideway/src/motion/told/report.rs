@@ -387,7 +387,9 @@ fn attainable(history: &History, event: &Event, reader: &mut Reader<'_>) -> Opti
     let decided = event.taken.and_then(|taken| event.successors.get(taken)).map(|taken| taken.verdict);
     let verdict = match (decided, &event.phase) {
         (Some(verdict), _) if verdict != Verdict::NotComputed => verdict,
-        (_, Some(phase)) if !phase.is_at_rest(&history.mechanism) && phase.open(&history.mechanism).is_empty() => {
+        (_, Some(phase))
+            if !phase.is_at_rest(&history.mechanism) && phase.open(&history.mechanism).is_empty() =>
+        {
             verdict_on(&history.mechanism, reader.configuration(event.time)?, phase)
         }
         _ => Verdict::NotComputed,
