@@ -52,7 +52,7 @@ fn ranges_at_rest_have_a_width() {
 #[test]
 fn the_headline_counts_what_is_taken() {
     let answer = report("rod-on-floor", &[]).answer();
-    let first = "2 solutions: from this state it can go on in one way; the other state is unstable.";
+    let first = "2 solutions: from this state it can go on in one way. The other state is unstable.";
     assert!(answer.starts_with(first), "{answer}");
 }
 
