@@ -348,15 +348,21 @@ const SHORT_ROD: &str = include_str!("../../slideway-cli/tests/bad/short-rod.tom
 #[test]
 fn check_answers() {
     let told = [
-        (checked("drawer", &[]), "Ready for: solve, drive, hold, simulate."),
-        (checked("slider-crank", &[]), "Ready for: solve, hold, simulate."),
+        (checked("drawer", &[]), "Ready for: solve, limits, size, sweep, map, drive, hold, simulate."),
+        (checked("slider-crank", &[]), "Ready for: solve, limits, size, sweep, map, hold, simulate."),
         (checked(PULLED_BLOCK, &[]), "Ready for: hold, simulate. For solve, drive, give a rate."),
         (
             checked(PIPE_CLAMP, &[]),
             "Ready for: hold. For solve, give a mass (or a drive) and a rate. For simulate, give a mass (or a drive).",
         ),
-        (checked(EQUAL_PLAY, &[]), "Ready for: solve, drive, hold. Not for simulate: see below."),
-        (checked("drawer", &[("mu", "30")]), "Ready for: solve, drive, hold, simulate. 1 warning."),
+        (
+            checked(EQUAL_PLAY, &[]),
+            "Ready for: solve, limits, size, sweep, map, drive, hold. Not for simulate: see below.",
+        ),
+        (
+            checked("drawer", &[("mu", "30")]),
+            "Ready for: solve, limits, size, sweep, map, drive, hold, simulate. 1 warning.",
+        ),
         (checked(SHORT_ROD, &[]), "No question can be answered in this state: 1 fault."),
     ];
     assert_answers(&told);

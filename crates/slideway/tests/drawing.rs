@@ -348,3 +348,35 @@ fn guides_that_share_a_load() {
     assert_eq!(built.contact(guide.rear()).name, "guide.rear");
     assert_eq!(built.contact(track.front()).name, "track.front");
 }
+
+/// A solid disc that rolls down an incline: `x'' = 2/3 g sin(slope)`, with no coordinate but that of its centre.
+#[test]
+fn a_disc_that_is_said_to_stick_rolls() {
+    let mut d = Drawing::new();
+    d.gravity("9.81 m/s^2").parameter("slope", "20 deg");
+    let wheel = d.body("wheel").mass("2 kg").centre([0, 0]).disc("0.1 m").id();
+    let foot =
+        d.disc_on_face("foot", wheel, GROUND).at([0, 0]).radius("0.1 m").along("slope").mu(0.5).sticks().id();
+    d.slide("x", foot);
+    let answer = solve(&d.build().unwrap()).unwrap();
+    let expected = -2.0 / 3.0 * 9.81 * 20_f64.to_radians().sin();
+    assert!((answer.solutions[0].coordinates[0].acceleration - expected).abs() < 1e-12, "{answer:#?}");
+}
+
+/// The other end of a rod on a floor is 0.2 m above that.
+#[test]
+fn a_corner_is_apart_from_a_face_with_ends() {
+    let mut d = Drawing::new();
+    d.gravity("9.81 m/s^2");
+    let rod = d.body("rod").mass("1 kg").bar([[0.0, 0.0], [1.0, 0.2]]).id();
+    let tip = d.corner_on_face("tip", rod, GROUND).at([0.0, 0.0]).mu(0).id();
+    d.corner_on_face("end", rod, GROUND).at([1.0, 0.2]).face([[-2.0, 0.0], [2.0, 0.0]]).mu(0.3).apart();
+    d.slide("x", tip).rate(1);
+    d.rotation("turn", rod);
+    let model = d.build().unwrap();
+    let answer = solve(&model).unwrap();
+    assert_eq!((answer.complete, answer.solutions[0].contacts.len()), (Proof::Proven, 1));
+    let mechanism = slideway::mechanism::Mechanism::new(&model).unwrap();
+    let (_, slider) = mechanism.sliders().nth(1).unwrap();
+    assert!((slider.apart[0].gap - 0.2).abs() < 1e-15, "{slider:?}");
+}

@@ -141,7 +141,7 @@ fn of_solve(outcome: Outcome) -> First {
     match outcome {
         One => Line(solved("drawer", &[]), "It moves: push needs 36.36 N (20 N without friction). "),
         Nothing => Line(solved("painleve-klein", &[("mu", "4")]), "It jams: friction locks it. "),
-        Several => Line(solved("klepp-2002", &[]), "3 solutions: from this state it can go on in 3 ways. "),
+        Several => Line(solved("klepp-2002", &[]), "3 solutions: from this state it can go on in 2 ways. "),
         Undetermined => Line(
             solved(EQUAL_PLAY, &[]),
             "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value.",
@@ -414,14 +414,17 @@ fn of_simulate(outcome: Outcome) -> First {
 /// `check` looks at a model, not for solutions.
 fn of_check(outcome: Outcome) -> First {
     match outcome {
-        One => Line(checked("drawer", &[]), "Ready for: solve, drive, hold, simulate."),
+        One => {
+            Line(checked("drawer", &[]), "Ready for: solve, limits, size, sweep, map, drive, hold, simulate.")
+        }
         Nothing => Line(
             checked(include_str!("../../slideway-cli/tests/bad/short-rod.toml"), &[]),
             "No question can be answered in this state: 1 fault.",
         ),
-        Undetermined => {
-            Line(checked(EQUAL_PLAY, &[]), "Ready for: solve, drive, hold. Not for simulate: see below.")
-        }
+        Undetermined => Line(
+            checked(EQUAL_PLAY, &[]),
+            "Ready for: solve, limits, size, sweep, map, drive, hold. Not for simulate: see below.",
+        ),
         Several | Gap | Tip | Jam | SlowsDown | Undecided => Never("that is for the questions to find"),
         Interrupted => {
             NoReport(check_with(&model("drawer", &[]), &mut |_| ControlFlow::Break(())).unwrap().is_none())

@@ -283,3 +283,61 @@ fn impacts_take_energy() {
     }
     assert!(count > 60, "{count}");
 }
+
+/// A box falls flat on a floor, and only its upper corners have contacts: its lower corners reach the floor after
+/// `sqrt(2 h/g)`, and the motion ends there; beside the end of the floor it falls on.
+#[test]
+fn a_corner_without_contact_ends_the_motion() {
+    let height = 0.4_f64;
+    let model = |end: f64| {
+        let corner = |name: &str, place: &str| {
+            format!(
+                "[joints.{name}]\ntype = \"corner_on_face\"\nblock = \"box\"\nat = {place}\nface = [\"A\", \"B\"]\nclosed = false\nmu = 0.3\n"
+            )
+        };
+        format!(
+            "gravity = \"{G} m/s^2\"\n[points]\nC = [0, 0]\nP = [\"0.1 m\", \"-0.2 m\"]\nA = [\"{end} m\", \"-{} m\"]\nB = [\"9 m\", \"-{} m\"]\n\
+             [bodies.box]\npoints = [\"C\", \"P\"]\nmass = \"1 kg\"\ncentre_of_mass = \"C\"\nshape = {{ rectangle = [\"0.2 m\", \"0.4 m\"] }}\n\
+             {}{}[coordinates.x]\nx = \"box.C\"\n[coordinates.y]\ny = \"box.C\"\n[coordinates.turn]\nrotation = \"box\"\n",
+            height + 0.2,
+            height + 0.2,
+            corner("left", "[\"-0.1 m\", \"0.2 m\"]"),
+            corner("right", "[\"0.1 m\", \"0.2 m\"]"),
+        )
+    };
+    let falls = history(&model(-9.0), 1.0);
+    assert_eq!(falls.end, End::BareCorner { wanted: "corner_on_face" });
+    is_near(falls.stop(), (2.0 * height / G).sqrt(), 1e-9);
+    let causes = &falls.events.last().unwrap().causes;
+    let names: Vec<&str> = causes.iter().filter_map(|cause| cause.subject(&falls.mechanism)).collect();
+    assert_eq!(names, ["the corner of box at (-0.1 m, -0.2 m) in the drawing", "box.P"]);
+    // The floor ends between both corners, then before both.
+    let one = history(&model(0.0), 1.0);
+    assert_eq!(one.events.last().unwrap().causes.len(), 1, "{:#?}", words(&one));
+    assert_eq!(history(&model(0.2), 0.3).end, End::Finished);
+}
+
+/// A ladder that slides down its wall: without a contact of its head with the floor the motion ends where, with it, the head
+/// lands; then it lies still, though both its contacts with the wall are apart.
+#[test]
+fn a_ladder_ends_lying_on_the_floor() {
+    let text = include_str!("../models/ladder.toml").replace("climbed = 0.5", "climbed = 1");
+    let lands = history(&text, 2.0);
+    let [time, _] = *landings(&lands).last().unwrap();
+    let options = SimulateOptions::new(2.0);
+    let end = slideway::motion::report(&lands, &options).end.words;
+    assert_eq!(
+        (&lands.end, end.as_str()),
+        (&End::Finished, "It comes to rest at 1.03 s and stays so until 2 s.")
+    );
+    let (before, after) = text.split_once("[joints.landing]").unwrap();
+    let bare = format!("{before}{}", &after[after.find("[coordinates").unwrap()..]);
+    let ends = history(&bare, 2.0);
+    assert_eq!(ends.end, End::BareCorner { wanted: "corner_on_face" });
+    is_near(ends.stop(), time, 1e-9);
+    let told = slideway::motion::report(&ends, &options).end.words;
+    assert_eq!(
+        told,
+        "It ends at 1.03 s: ladder.head reaches the face of foot, where the model has no contact. Add a `corner_on_face` there, with its `face` and `closed = false`."
+    );
+}

@@ -312,3 +312,26 @@ fn check_lists_them_for_programs() {
     assert_eq!(json[0]["place"]["source"], "model");
     assert!(json[0]["message"].is_string() && json[0]["hint"].is_string());
 }
+
+/// A box that stands flat, with a contact at one of its lower corners: the other has none. With a base it has both.
+#[test]
+fn a_corner_on_a_face_without_contact() {
+    let of_joint = |joint: &str| {
+        format!(
+            "[points]\nA = [\"-0.1 m\", 0]\nM = [0, 0]\nC = [0, \"0.2 m\"]\n[bodies.box]\npoints = [\"A\", \"M\", \"C\"]\nmass = \"1 kg\"\n\
+             centre_of_mass = \"C\"\nshape = {{ rectangle = [\"0.2 m\", \"0.4 m\"] }}\n[joints.foot]\nblock = \"box\"\nalong = \"0 deg\"\nmu = 0.3\n\
+             {joint}\n[coordinates.x]\nslide = \"foot\"\n"
+        )
+    };
+    let turn = "[coordinates.turn]\nrotation = \"box\"\n";
+    let one = of_joint("type = \"corner_on_face\"\nat = \"A\"") + turn;
+    let found = of_text(&one);
+    assert_eq!(names(&found), ["bare_corner"]);
+    let expected =
+        "the corner of box at (0.1 m, 0 m) in the drawing lies on the face of foot and has no contact there";
+    assert_eq!(found[0].0.to_string(), expected);
+    assert_eq!(
+        names(&of_text(&of_joint("type = \"block_on_face\"\nat = \"M\"\nlength = \"0.2 m\""))),
+        [""; 0]
+    );
+}

@@ -2,8 +2,8 @@
 
 use super::Painter;
 use super::hidden::Bar;
-use super::looks::{self, Look, lean};
-use super::outline::{Local, capsule, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
+use super::looks::{self, Look};
+use super::outline::{Local, capsule, clipped, disc, edge, hull, nearest_on_line, turned, unit, upper_side};
 use super::scene::{Class, Point};
 use super::slide::{BAR, SUPPORT, Slide};
 use nalgebra::Vector2;
@@ -84,7 +84,7 @@ impl Painter<'_> {
             parts.extend(self.housings(body));
         }
         let other_parts = parts.len();
-        parts.extend(self.bars(body));
+        parts.extend(self.bars(body).into_iter().map(|bar| self.on_free_side(body, bar)));
         self.union(&parts);
         if !has_plate {
             self.channels(body);
@@ -206,7 +206,7 @@ impl Painter<'_> {
 
     /// The centre of a rectangle and its axes, along its first and its second side.
     fn plate_axes(&self, body: BodyId) -> Local {
-        let angle = self.configuration.angle(Frame::Body(body)) + lean(self.mechanism, body);
+        let angle = self.configuration.angle(Frame::Body(body)) + self.mechanism.lean(body);
         let along = self.view.direction(Vector2::new(angle.cos(), angle.sin()));
         Local { origin: self.centre(body), along, across: turned(along) }
     }
@@ -269,6 +269,18 @@ impl Painter<'_> {
                 None => Vec::new(),
             },
         }
+    }
+
+    /// The part of a bar that is not in a face on which a corner of its body stands.
+    fn on_free_side(&self, body: BodyId, bar: Vec<Point>) -> Vec<Point> {
+        const FAR: f64 = 1e5;
+        let stands = |slide: &&Slide| {
+            let is_corner = slide.kind == SliderKind::Pin && !slide.is_disc && slide.round.is_none();
+            is_corner && slide.look == Look::Face(1.0) && slide.block_frame == Frame::Body(body)
+        };
+        self.sliders.iter().flatten().filter(stands).fold(bar, |bar, slide| {
+            clipped(&bar, &slide.guide.rectangle([-FAR, FAR], [-slide.half_channel(), FAR]))
+        })
     }
 
     /// Half the width of a bar: that of its guide if it slides along itself.

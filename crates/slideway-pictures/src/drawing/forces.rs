@@ -11,7 +11,7 @@ use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::SliderKind;
 
 /// Velocities below this part of the size of the mechanism for each second have no arrow (1/s).
-const AT_REST: f64 = 1e-9;
+pub(super) const AT_REST: f64 = 1e-9;
 /// Distance of a velocity from what is drawn of its guide.
 const ASIDE: f64 = 19.0;
 /// Places of the arrow of a velocity: along the guide, and further off.
@@ -54,6 +54,9 @@ impl Painter<'_> {
     pub(super) fn contact_forces(&mut self) {
         let Some(scale) = self.options.force_scale else { return };
         for index in 0..self.mechanism.contacts.len() {
+            self.cone_at_rest(ContactId(index), scale);
+        }
+        for index in 0..self.mechanism.contacts.len() {
             let joint = self.mechanism.contacts[index].joint;
             let state = self.states.contacts.get(index).copied().unwrap_or_default();
             if let (Some(slide), Some(forces)) = (self.slide(joint), state.forces) {
@@ -94,7 +97,10 @@ impl Painter<'_> {
         if forces.friction == 0.0 {
             return;
         }
-        let from = self.face(slide, contact, side);
+        // One face of a contact has one force.
+        let acts_there = forces.normal != 0.0 && forces.normal.signum() == side.signum();
+        let from =
+            if acts_there { self.pressed(slide, contact, forces) } else { self.face(slide, contact, side) };
         let direction = -slide.guide.along * (forces.friction.signum() * slide.action());
         let length = forces.friction.abs() * scale;
         let text = self.shown(forces.friction.abs(), "N");
@@ -177,9 +183,11 @@ impl Painter<'_> {
         // A belt moves all along: its arrow keeps clear of what it carries.
         let along = if slide.look == Look::Rollers { 0.7 * slide.block_reach[1] } else { 0.0 };
         let mut best: Option<(f64, Point, f64)> = None;
-        for (side, aversion) in
-            [(upper_side(slide.guide.across), 0.0), (-upper_side(slide.guide.across), 4.0)]
-        {
+        let upper = upper_side(slide.guide.across);
+        let sides = [(upper, 0.0), (-upper, 4.0)];
+        // A disc slides where it touches.
+        let touches = |side: &f64| !slide.is_disc || *side < 0.0;
+        for (side, aversion) in sides.into_iter().filter(|(side, _)| touches(side)) {
             for (shift, further) in PLACES {
                 let middle = slide.block.origin
                     + slide.guide.across * ((edge + further) * side)

@@ -5,6 +5,7 @@
 //! balance it. Of any other mechanism each force is drawn within its own cone.
 
 use super::Painter;
+use super::forces::AT_REST;
 use super::loads::{CORNER, LEAST_ARROW};
 use super::outline::{clipped, turned, unit};
 use super::scene::{Bounds, Class, Point, Shape};
@@ -72,8 +73,13 @@ impl Painter<'_> {
     /// The cones of all contacts that press, and their forces; with the line of the push and the overlap where there is one.
     pub(super) fn jam(&mut self) {
         let Some(scale) = self.options.force_scale else { return };
-        let cones: Vec<Cone> =
-            (0..self.mechanism.contacts.len()).filter_map(|index| self.cone(ContactId(index))).collect();
+        let cones: Vec<Cone> = self
+            .mechanism
+            .contacts
+            .iter()
+            .enumerate()
+            .filter_map(|(index, contact)| self.cone(ContactId(index), contact.mu))
+            .collect();
         if let ([one, other], Some(push)) = (&cones[..], self.only_push())
             && let Some((meeting, sizes)) = meeting([one, other], push)
         {
@@ -93,7 +99,22 @@ impl Painter<'_> {
         }
     }
 
-    fn cone(&self, contact: ContactId) -> Option<Cone> {
+    /// The friction cone of a contact at rest that presses, as high as its normal force is long: the arrow of its friction ends
+    /// within it.
+    pub(super) fn cone_at_rest(&mut self, contact: ContactId, scale: f64) {
+        let of = &self.mechanism.contacts[contact.index()];
+        let sliding = self.actual.contact(self.mechanism, contact).sliding_velocity.abs();
+        if sliding > AT_REST * self.mechanism.size || !of.opens {
+            return;
+        }
+        let Some(cone) = self.cone(contact, of.mu_static).filter(|cone| cone.mu > 0.0) else { return };
+        let height = (cone.force.dot(&cone.normal) * scale).clamp(LEAST_ARROW, self.options.longest_arrow);
+        let sense = if cone.is_outside { -1.0 } else { 1.0 };
+        self.area(Class::Cone, cone.part(sense * height));
+    }
+
+    /// The cone of a contact that presses, with these coefficients of friction of its sides.
+    fn cone(&self, contact: ContactId, mu: [f64; 2]) -> Option<Cone> {
         let index = contact.index();
         let forces = self.states.contacts.get(index)?.forces.filter(|forces| forces.normal != 0.0)?;
         let slide = self.slide(self.mechanism.contacts[index].joint)?;
@@ -103,7 +124,7 @@ impl Painter<'_> {
             apex: self.pressed(&slide, contact, forces),
             normal: guide.across * (forces.normal.signum() * slide.action()),
             along: guide.along,
-            mu: self.mechanism.contacts[index].mu[usize::from(forces.normal < 0.0)],
+            mu: mu[usize::from(forces.normal < 0.0)],
             force,
             is_outside: slide.around == (slide.block_frame == Frame::Ground),
         })

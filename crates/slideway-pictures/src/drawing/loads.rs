@@ -378,6 +378,7 @@ pub(crate) fn sample(class: Class, from: Point, length: f64) -> Vec<Shape> {
     match class {
         Class::Break => broken(middle, Point::x()).collect(),
         Class::JammedCorner => vec![Shape::Circle(middle, CORNER)],
+        Class::Cone => vec![Shape::Area(vec![from, to - Point::new(0.0, 5.0), to + Point::new(0.0, 5.0)])],
         _ => vec![Shape::Arrow { from, to }],
     }
 }

@@ -16,10 +16,8 @@
 use super::ContactStates;
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
-use slideway::mechanism::{Contact, JointKind, Mechanism, Shape, Slider, rot90};
-use slideway::model::outline::polygon;
+use slideway::mechanism::{Contact, JointKind, Mechanism, Slider, rot90};
 use slideway::model::{CarriedBy, SliderKind};
-use std::f64::consts::FRAC_PI_2;
 
 /// Places nearer to a line than this part of the size of the mechanism lie on it, as rounding goes.
 const ON_LINE: f64 = 1e-9;
@@ -55,21 +53,8 @@ impl Look {
 /// The corners of a body as it is drawn (m, in the drawing of the model): of its outline, its rectangle, or
 /// the wedge that it is. None for discs, bars and bodies without shape.
 pub(super) fn corners(mechanism: &Mechanism, id: BodyId) -> Option<Vec<Vector2<f64>>> {
-    let body = &mechanism.bodies[id.index()];
-    if !body.outline.is_empty() {
-        return Some(polygon(&body.outline));
-    }
-    match body.shape {
-        Some(Shape::Rectangle([width, height])) => {
-            let (sin, cos) = lean(mechanism, id).sin_cos();
-            let (along, across) =
-                (Vector2::new(cos, sin) * (0.5 * width), Vector2::new(-sin, cos) * (0.5 * height));
-            let signs = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-            Some(signs.map(|(a, b)| body.centre_of_mass + along * a + across * b).to_vec())
-        }
-        Some(Shape::Disc(_) | Shape::Bar(_)) => None,
-        None => wedge(mechanism, id),
-    }
+    let is_shaped = mechanism.bodies[id.index()].shape.is_some();
+    mechanism.corners(id).or_else(|| if is_shaped { None } else { wedge(mechanism, id) })
 }
 
 /// The look of every joint; a contact that pulls at what would be a face has walls on both sides.
@@ -234,14 +219,4 @@ pub(super) fn on_rail_of(mechanism: &Mechanism, joint: JointId) -> Vec<JointId> 
     let Some(slider) = mechanism.slider(joint) else { return Vec::new() };
     let all = mechanism.sliders().filter(|(_, other)| on_one_rail(mechanism, slider, other));
     all.map(|(id, _)| id).collect()
-}
-
-/// By how much (rad) a rectangle is turned in the drawing: it lies along the guide of its body, as the moment
-/// of inertia leaves that open.
-pub(super) fn lean(mechanism: &Mechanism, body: BodyId) -> f64 {
-    let of_body = |slider: &&Slider| slider.block == Frame::Body(body) && slider.kind != SliderKind::Pin;
-    let mut all = mechanism.sliders().map(|(_, slider)| slider);
-    let tangent = all.find(of_body).map_or(Vector2::x(), |slider| slider.tangent);
-    let angle = tangent.y.atan2(tangent.x);
-    angle - FRAC_PI_2 * (angle / FRAC_PI_2).round()
 }

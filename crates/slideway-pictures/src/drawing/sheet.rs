@@ -422,7 +422,8 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::Reaction, format!("normal reaction on {forces_on}")),
         (Class::Friction, format!("friction on {forces_on}")),
         (Class::ContactForce, format!("force on {forces_on}, within its friction cone")),
-        (Class::JammedCorner, "corner that presses".to_owned()),
+        (Class::JammedCorner, "contact that presses".to_owned()),
+        (Class::Cone, "friction cone of a contact at rest".to_owned()),
         (Class::PinForce, "force of a pin, tangent to its friction circle".to_owned()),
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
@@ -432,6 +433,10 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
     ];
     let occurs = |class: &Class| scene.elements.iter().any(|element| element.class == *class);
     let mut used: Vec<_> = words.into_iter().filter(|(class, _)| occurs(class)).collect();
+    // Where friction locks, the force says what its cone is.
+    if occurs(&Class::ContactForce) {
+        used.retain(|(class, _)| *class != Class::Cone);
+    }
     // They have one colour, and so one entry.
     if [Class::Reaction, Class::PinForce].iter().all(occurs) {
         used.retain(|(class, _)| *class != Class::PinForce);

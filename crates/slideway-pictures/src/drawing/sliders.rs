@@ -171,6 +171,8 @@ impl Painter<'_> {
         let mut slides: Vec<Option<Slide>> = joints
             .map(|(index, joint)| match &joint.kind {
                 JointKind::Hinge(_) => None,
+                // It is seen at the joint that has its face, too.
+                JointKind::Slider(_) if self.mechanism.is_apart_from_shared_face(JointId(index)) => None,
                 JointKind::Slider(slider) => Some(self.slide_of(JointId(index), slider)),
             })
             .collect();

@@ -1,6 +1,6 @@
 //! From metres to drawing units, and how far guides reach.
 
-use super::looks::{corners, is_belt, lean};
+use super::looks::{corners, is_belt};
 use super::scene::{Bounds, Point};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
@@ -94,7 +94,7 @@ fn cut(
     let half = 0.5 * width.max(height);
     let along = |configuration: &&Configuration| {
         let pose = configuration.poses[body.index()];
-        let (sin, cos) = (pose.angle() + lean(mechanism, body) + upright).sin_cos();
+        let (sin, cos) = (pose.angle() + mechanism.lean(body) + upright).sin_cos();
         let axis = Vector2::new(cos, sin);
         places(mechanism, configuration).into_iter().map(move |place| (place - pose.position).dot(&axis))
     };

@@ -212,6 +212,7 @@ CauseKind = Literal[
     "preload_gap_ends",
     "touches",
     "lands",
+    "bare_corner",
     "stops",
     "slips",
     "stops_turning",
@@ -235,6 +236,7 @@ CauseKind = Literal[
 - `"preload_gap_ends"`: A preload gap closes.
 - `"touches"`: A contact that was open reaches its face.
 - `"lands"`: A contact lands on its face.
+- `"bare_corner"`: A corner without contact reaches a face.
 - `"stops"`: A joint stops sliding.
 - `"slips"`: Sticking joints begin to slip.
 - `"stops_turning"`: A hinge with friction stops turning.
@@ -313,6 +315,7 @@ EndKind = Literal[
     "travel_limit",
     "overlap_vanished",
     "beside_face",
+    "bare_corner",
     "reaction_limit",
     "user_event",
     "no_such_branch",
@@ -332,6 +335,7 @@ EndKind = Literal[
 - `"travel_limit"`: A joint reaches a limit of its travel.
 - `"overlap_vanished"`: A block leaves its guide.
 - `"beside_face"`: A contact that was open reaches the line of its face beyond the ends of the face.
+- `"bare_corner"`: A corner reaches a face where the model has no contact.
 - `"reaction_limit"`: A normal force reaches its limit.
 - `"user_event"`: An event of the model that stops the motion.
 - `"no_such_branch"`: The requested branch does not exist.
@@ -3259,7 +3263,7 @@ class WarningReport(Record):
 
     kind: str
     """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed",
-    "far_from_drawing", "great_friction", "wide_friction_circle" or "nothing_presses"."""
+    "far_from_drawing", "great_friction", "wide_friction_circle", "bare_corner" or "nothing_presses"."""
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""
     message: str

@@ -11,6 +11,16 @@ use crate::standstill::can_hold;
 use std::ops::ControlFlow;
 
 impl Question {
+    /// The commands that ask it.
+    pub(super) fn names(&self) -> &'static [&'static str] {
+        match self.name {
+            "solve" => &["solve", "limits", "size", "sweep", "map"],
+            "drive" => &["drive"],
+            "hold" => &["hold"],
+            _ => &["simulate"],
+        }
+    }
+
     fn new(name: &'static str, faults: &Faults) -> Self {
         let kinds: Vec<&FaultKind> = faults.sorted().into_iter().map(|fault| &fault.kind).collect();
         // What is not simple leaves the rest untold.

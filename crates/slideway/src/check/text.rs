@@ -15,8 +15,13 @@ impl Report for CheckReport {
             let faults = count(self.findings.len(), "fault", "faults");
             return format!("No question can be answered in this state: {faults}.");
         }
-        let ready: Vec<&str> =
-            self.questions.iter().filter(|question| question.ready).map(|question| question.name).collect();
+        let ready: Vec<&str> = self
+            .questions
+            .iter()
+            .filter(|question| question.ready)
+            .flat_map(Question::names)
+            .copied()
+            .collect();
         let mut sentences = vec![format!("Ready for: {}.", ready.join(", "))];
         let hindered: Vec<&Question> = self.hindered().collect();
         for alike in hindered.chunk_by(|one, next| one.needs == next.needs) {

@@ -357,7 +357,13 @@ impl<T: Real> Configuration<T> {
         self.gap_at(mechanism, slider, contact)
     }
 
-    fn gap_at(&self, mechanism: &Mechanism<T>, slider: &Slider<T>, contact: &Contact<T>) -> [T; 2] {
+    /// The gap of a contact of a sliding joint that may lift off (m), and its rate (m/s).
+    pub(crate) fn gap_at(
+        &self,
+        mechanism: &Mechanism<T>,
+        slider: &Slider<T>,
+        contact: &Contact<T>,
+    ) -> [T; 2] {
         let position = contact.position(slider);
         let normal = rot90(self.tangent(mechanism, slider));
         let place = self.position(mechanism, &Attachment { frame: slider.block, position });

@@ -26,6 +26,10 @@ impl Table {
         }
     }
 
+    pub(super) fn remove(&mut self, key: &str) {
+        self.values.retain(|(known, _)| known != key);
+    }
+
     /// Another key, even if there is one of this name: the reader refuses it.
     pub(super) fn add(&mut self, key: &str, value: Quantity) {
         self.values.push((key.to_owned(), value));

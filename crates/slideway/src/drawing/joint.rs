@@ -276,10 +276,26 @@ impl<'d> SliderBuilder<'d, kind::Discs> {
     }
 }
 
+impl<K: MayLiftOff + OnLine> SliderBuilder<'_, K> {
+    /// A straight face with both of its ends in the drawing (m), in place of [`along`](Self::along): what lies on it is to the left
+    /// of the way from one to the other.
+    pub fn face<P: Into<Quantity>>(mut self, ends: [[P; 2]; 2]) -> Self {
+        let (guide, name) = (self.between[1], self.name.clone());
+        let ends = self.drawing.ends(&name, ends.map(|place| (guide, place)));
+        self.table().remove("along");
+        self.set("face", ends)
+    }
+}
+
 impl<K: MayLiftOff> SliderBuilder<'_, K> {
     /// It does not touch in the state to be solved. Default: it does.
     pub fn apart(self) -> Self {
         self.set("closed", Quantity::truth(false))
+    }
+
+    /// It does not slip in the state to be solved: it rolls or stands, which takes a coordinate less. Default: it slides.
+    pub fn sticks(self) -> Self {
+        self.set("sticks", Quantity::truth(true))
     }
 }
 

@@ -125,6 +125,15 @@ impl Expression {
         }
     }
 
+    /// The symbols of which it takes the sine, cosine or tangent.
+    pub(crate) fn angles(&self) -> impl Iterator<Item = Symbol> {
+        let is_of_angle = |unary: &Unary| matches!(unary, Unary::Sin | Unary::Cos | Unary::Tan);
+        self.steps.windows(2).filter_map(move |pair| match (&pair[0].operation, &pair[1].operation) {
+            (Operation::Symbol(symbol), Operation::Unary(unary)) if is_of_angle(unary) => Some(*symbol),
+            _ => None,
+        })
+    }
+
     /// The number, if it is nothing else, or its opposite, and has no unit.
     pub(crate) fn bare_number(&self) -> Option<f64> {
         self.typed_number().filter(|(_, inferred)| *inferred == Inferred::Number).map(|(value, _)| value)

@@ -29,6 +29,8 @@ pub enum Doubt {
     WideFrictionCircle { hinge: String, radius: String, body: String, other: String, distance: String },
     #[error("nothing presses any guide: all contact forces are zero, and friction has nothing to act on")]
     NothingPresses,
+    #[error("{corner} lies on the face of {joint} and has no contact there")]
+    BareCorner { corner: String, joint: String, wanted: &'static str },
     #[error(
         "{name} is known from {from} to {to}: where one value is needed, this takes the middle, {middle}"
     )]
@@ -48,6 +50,7 @@ impl Doubt {
             Self::GreatFriction { .. } => "great_friction",
             Self::WideFrictionCircle { .. } => "wide_friction_circle",
             Self::NothingPresses => "nothing_presses",
+            Self::BareCorner { .. } => "bare_corner",
             Self::RangeAtMiddle { .. } => "range_at_middle",
         }
     }
@@ -78,6 +81,9 @@ impl Doubt {
             }
             Self::WideFrictionCircle { .. } => {
                 "look for a wrong or missing unit in its `radius` or `friction_radius`".to_owned()
+            }
+            Self::BareCorner { wanted, .. } => {
+                format!("if it may press there, add a `{wanted}`; a base with two corners is a `block_on_face`")
             }
             Self::RangeAtMiddle { name, from, to, .. } => format!(
                 "`{}` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`",

@@ -90,8 +90,9 @@ fn rest_limits_of(
     })
 }
 
-/// Part of a value within which a linear program does not decide whether something rests: ten times its tolerance.
-const LEFT_OPEN: f64 = 1e-8;
+/// Part of a value within which neither a linear program nor a list of states decides whether something rests: ten times their
+/// tolerance.
+pub(super) const LEFT_OPEN: f64 = 1e-8;
 
 /// The range cut where the answer changes.
 fn spans(tried: &[Sample<Found>], answer: &dyn Fn(f64) -> Found, same_ends: &SameEnds) -> Vec<SpanOfRest> {

@@ -3,6 +3,7 @@
 //! evenly spaced values are compared, and what changes between them is bisected.
 
 use super::found::{Elsewhere, Gap, ModesFound, SameEnds};
+use super::rest::LEFT_OPEN;
 use super::varied::Varied;
 use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};
@@ -23,14 +24,22 @@ pub(super) fn found(varied: &Varied, [from, to]: [f64; 2], work: Work<'_>) -> Op
     let tried = samples(evenly([from, to], STEPS), work, |at, _| answer(at));
     let same_ends = SameEnds::bisected([from, to]);
     let scan = Scan { answer: &answer, is_like, narrowest: same_ends.within };
-    let (mut counts, mut starts, mut gaps) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut counts, mut starts, mut gaps) = (Vec::<CountInterval>::new(), Vec::new(), Vec::new());
+    let mut begins = f64::INFINITY;
     for Stretch { from, to, found, .. } in scan.adjoining(&tried) {
         match found {
-            Ok(found) if same_ends.are_two(from, to) => {
+            // Between two states neither may hold within the tolerance.
+            Ok(_) if to - from <= same_ends.within.max(LEFT_OPEN * from.abs().max(to.abs())) => {
+                match counts.last_mut() {
+                    Some(last) => last.to = to,
+                    None => begins = begins.min(from),
+                }
+            }
+            Ok(found) => {
+                let from = if counts.is_empty() { from.min(begins) } else { from };
                 counts.push(CountInterval { from, to, ..found.numbers });
                 starts.push(found.starts);
             }
-            Ok(_) => {}
             Err(faults) => gaps.push(Gap { from, to, faults }),
         }
     }

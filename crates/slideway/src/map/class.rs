@@ -232,6 +232,12 @@ pub(super) fn class(
         {
             motion(speeds(point, states))
         }
+        // What tips or lifts off is not told by coordinates that stand still.
+        (ColourBy::Modes | ColourBy::Motion, _) if let Some(starts) = &states.starts => {
+            let mut starts = starts.clone();
+            starts.sort_unstable();
+            ClassMeaning::Starts { starts }
+        }
         (ColourBy::Motion, Answer::States(_)) if states.changes.iter().any(|changes| !changes.is_empty()) => {
             motion(states.changes.clone())
         }
@@ -241,11 +247,6 @@ pub(super) fn class(
         // Whoever asks whether it holds asks no mode problem.
         (ColourBy::Solutions | ColourBy::Margin | ColourBy::Jam | ColourBy::Motion | ColourBy::Hold, _) => {
             number
-        }
-        (ColourBy::Modes, _) if let Some(starts) = &states.starts => {
-            let mut starts = starts.clone();
-            starts.sort_unstable();
-            ClassMeaning::Starts { starts }
         }
         (ColourBy::Modes, _) => {
             let mut patterns = [&states.solutions[..], &states.gaps[..]].concat();

@@ -3,6 +3,7 @@
 //! Second stage of the pipeline: [`Model`] in, [`Mechanism`] out. Positions are those of the reference
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
+mod corner;
 mod evaluation;
 mod excess;
 mod one_sided;
@@ -20,6 +21,7 @@ use crate::model::{
     Round, SliderKind, Stop,
 };
 use crate::units::Units;
+pub(crate) use corner::BareCorner;
 use evaluation::Evaluation;
 pub use excess::Excess;
 use nalgebra::Vector2;

@@ -1,7 +1,7 @@
 //! What every sliding joint, contact and hinge with friction does while the motion is smooth.
 
 use crate::ids::JointId;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Slider};
 use crate::modes::Side;
 
 /// What every sliding joint, contact and hinge with friction does between two events.
@@ -48,10 +48,15 @@ impl Phase {
         self.contacts == other.contacts && self.joints_and_hinges().eq(other.joints_and_hinges())
     }
 
-    /// Whether nothing slides or turns.
-    pub(crate) fn is_at_rest(&self) -> bool {
-        let mut joints = self.joints_and_hinges();
-        self.joints.len() + self.hinges.len() > 0 && joints.all(|joint| joint == JointPhase::Sticking)
+    /// Whether something touches or is hinged with friction, and none of that slides or turns: what is apart does neither.
+    pub(crate) fn is_at_rest(&self, mechanism: &Mechanism) -> bool {
+        let touches = |slider: &Slider| {
+            slider.contacts.is_empty() || slider.contacts.iter().any(|k| !self.is_open(mechanism, k.index()))
+        };
+        let sliders = mechanism.sliders().zip(&self.joints).filter(|((_, slider), _)| touches(slider));
+        let hinges = self.hinges.iter().map(|hinge| hinge.state);
+        let mut all = sliders.map(|(_, state)| *state).chain(hinges).peekable();
+        all.peek().is_some() && all.all(|state| state == JointPhase::Sticking)
     }
 
     /// Whether something sticks.

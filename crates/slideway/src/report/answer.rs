@@ -3,7 +3,7 @@
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
     Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, Solution, SolveReport, SpeedChange,
-    Status,
+    Status, Verdict,
 };
 use crate::units::brief;
 
@@ -257,13 +257,23 @@ impl SolveReport {
 
     /// "It can move in 3 ways: push needs 36.36, 41 or 52 N."
     fn ways_in_words(&self) -> String {
-        let several =
-            format!("{} solutions: from this state it can go on in {} ways", self.count, self.count);
+        let is_taken = |solution: &&Solution| solution.attainability.verdict != Verdict::Unattainable;
+        let taken: Vec<&Solution> = self.solutions.iter().filter(is_taken).collect();
+        let (ways, leaves) = match (taken.len(), self.solutions.len() - taken.len()) {
+            (0, _) => (format!("{} ways", self.count), " All of these states are unstable."),
+            (_, 0) => (format!("{} ways", self.count), ""),
+            (1, 1) => ("one way".to_owned(), " The other state is unstable."),
+            (1, _) => ("one way".to_owned(), " The other states are unstable."),
+            (ways, 1) => (format!("{ways} ways"), " The other state is unstable."),
+            (ways, _) => (format!("{ways} ways"), " The other states are unstable."),
+        };
+        let several = format!("{} solutions: from this state it can go on in {ways}", self.count);
         let efforts = |drive: &Drive| {
             let unit = self.model.units.of(drive.unit);
             let of =
-                |solution: &Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
-            let mut efforts: Vec<String> = self.solutions.iter().filter_map(of).collect();
+                |solution: &&Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
+            let told = if taken.is_empty() { self.solutions.iter().collect() } else { taken.clone() };
+            let mut efforts: Vec<String> = told.iter().filter_map(of).collect();
             let last = efforts.pop()?;
             let list = if efforts.is_empty() { last } else { format!("{} or {last}", efforts.join(", ")) };
             Some(format!("; {} needs {}", drive.name, unit.with(&list)))
@@ -273,7 +283,7 @@ impl SolveReport {
             [drive] if is_short => efforts(drive).unwrap_or_default(),
             _ => String::new(),
         };
-        format!("{several}{efforts}.")
+        format!("{several}{efforts}.{leaves}")
     }
 
     /// "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value."

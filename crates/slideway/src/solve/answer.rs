@@ -674,5 +674,6 @@ pub(crate) fn joint_modes(
         let name = mechanism.joints[joint.index()].name.to_string();
         report::JointMode { name, mode, start: None }
     };
-    mechanism.sliders().map(one).collect()
+    // What is apart has no mode.
+    mechanism.sliders().filter(|(_, slider)| !slider.contacts.is_empty()).map(one).collect()
 }

@@ -78,8 +78,9 @@ fn normal_forces(problem: &ModeProblem, mode: &[ContactState]) -> Option<DVector
         None => problem.jumps(Side::Negative).column(k) - problem.jumps(Side::Positive).column(k),
     });
     let columns: Vec<DVector<f64>> = columns.collect();
-    let sizes: Vec<f64> = columns.iter().map(DVector::norm).collect();
-    // Columns differ in their units: so each is taken in its own size.
+    // Columns differ in their units: so each is taken in its own size. A contact that locks by itself has none.
+    let size = |column: &DVector<f64>| Some(column.norm()).filter(|size| *size > 0.0).unwrap_or(1.0);
+    let sizes: Vec<f64> = columns.iter().map(size).collect();
     let entry = |row: usize, k: usize| columns[k][row] / sizes[k];
     let svd = DMatrix::from_fn(mode.len(), mode.len(), entry).try_svd(false, true, f64::EPSILON, 0)?;
     let (last, _) = svd.singular_values.argmin();

@@ -39,9 +39,6 @@ pub(crate) fn joint_mode_in_words(
     signs: &[i8],
 ) -> String {
     let guide = GuideInWords { tangent, around: slider.around };
-    if slider.contacts.is_empty() {
-        return "apart".to_owned();
-    }
     if slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens) {
         return guide.on_face(signs);
     }

@@ -132,7 +132,8 @@ fn release(
             open: slider.contacts.iter().filter(|&&k| open.contains(&k)).map(|&k| name(k)).collect(),
         })
     };
-    let joints = setup.sliders.iter().enumerate().map(of_joint).collect::<Result<_, _>>()?;
+    let touching = setup.sliders.iter().enumerate().filter(|(_, slider)| !slider.contacts.is_empty());
+    let joints = touching.map(of_joint).collect::<Result<_, _>>()?;
     let reactions = reactions(setup, state, &region)?;
     Ok(Some(Release {
         joints,

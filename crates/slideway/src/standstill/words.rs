@@ -18,7 +18,7 @@ pub(super) fn release_in_words(
         |k: &&usize| !setup.mechanism.contacts[**k].opens || contacts[**k] != ContactPhase::PreloadGap;
     let closed: Vec<usize> = joint.contacts.iter().filter(closed).copied().collect();
     match closed.as_slice() {
-        [] if !joint.contacts.is_empty() => "lifts off".to_owned(),
+        [] => "lifts off".to_owned(),
         [corner] if joint.contacts.len() > 1 => {
             let tips = format!("tips over {}", setup.mechanism.contacts[*corner].name);
             slides.map_or(tips.clone(), |slides| format!("{tips}, {slides}"))

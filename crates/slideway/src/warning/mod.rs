@@ -17,11 +17,12 @@
 mod lengths;
 
 use crate::configuration::{Configuration, widest_gap_of_drawing};
+use crate::expression::Symbol;
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
 use crate::ids::{FormulaId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::{Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
+use crate::mechanism::{BareCorner, Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
 use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
 use crate::report::number::number;
 use serde::Serialize;
@@ -44,7 +45,7 @@ const GREAT_FRICTION: f64 = 2.0;
 #[non_exhaustive]
 pub struct WarningReport {
     /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed", "far_from_drawing",
-    /// "great_friction", "wide_friction_circle" or "nothing_presses".
+    /// "great_friction", "wide_friction_circle", "bare_corner" or "nothing_presses".
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
     pub place: Option<WarningPlace>,
@@ -91,12 +92,18 @@ type State<'a> = LazyCell<Option<Configuration>, Box<dyn FnOnce() -> Option<Conf
 pub fn warnings(model: &Model) -> Faults {
     let mut found = Faults::default();
     found.extend(model.doubts.iter().cloned());
-    found.extend(angles(model).into_iter().filter_map(|angle| bare_angle(model, angle)));
+    // A setting that is in doubt already is not told twice.
+    let is_told = |angle: &FormulaId| {
+        model.doubts.iter().any(|doubt| doubt.place == Some(model.formula(*angle).origin.place()))
+    };
+    let angles = angles(model).into_iter().filter(|angle| !is_told(angle));
+    found.extend(angles.filter_map(|angle| bare_angle(model, angle)));
     found.extend(lengths::doubtful_lengths(model));
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
         found.extend(wide_friction_circles(model, &mechanism));
         found.extend(gap_closed(model, &mechanism));
+        found.extend(bare_corners(&mechanism));
         // Assembled once, and only if one of them asks.
         let state: State<'_> = LazyCell::new(Box::new(|| Configuration::new(&mechanism).ok()));
         found.extend(far_from_drawing(model, &mechanism, &state));
@@ -146,7 +153,7 @@ fn warning(doubt: Doubt, place: Place) -> Fault {
     Fault::new(FaultKind::Doubt(doubt), place)
 }
 
-/// The formulas that are angles.
+/// The formulas that are angles, parameters under a sine, cosine or tangent among them.
 fn angles(model: &Model) -> Vec<FormulaId> {
     let of_along = |along: &Along| if let Along::Angle(angle) = along { Some(*angle) } else { None };
     let joints = model.joints.iter().filter_map(|joint| match &joint.kind {
@@ -164,12 +171,26 @@ fn angles(model: &Model) -> Vec<FormulaId> {
     });
     let coordinates = model.coordinates.iter().filter(|coordinate| coordinate.kind.is_angle());
     let values = coordinates.flat_map(|coordinate| [coordinate.drawn_at, coordinate.value]);
-    joints.chain(loads).chain(drives).chain(values.flatten()).collect()
+    let under = model.formulas.iter().flat_map(|formula| formula.expression.angles());
+    let parameters = under.filter_map(|symbol| match symbol {
+        Symbol::Parameter(parameter) => Some(model.parameters[parameter].value),
+        _ => None,
+    });
+    let mut all: Vec<FormulaId> = joints
+        .chain(loads)
+        .chain(drives)
+        .chain(values.flatten())
+        .chain(parameters)
+        .map(|id| model.source_of(id))
+        .collect();
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
 /// A bare number beyond a full turn as an angle, or as the parameter that it is.
 fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
-    let formula = model.formula(model.source_of(angle));
+    let formula = model.formula(angle);
     let value = formula.expression.bare_number().filter(|value| value.abs() > FULL_TURN)?;
     let what = formula.what.to_string();
     Some(warning(Doubt::BareAngle { what, value }, formula.origin.place()))
@@ -227,6 +248,18 @@ fn nearest_hinge(mechanism: &Mechanism, joint: JointId) -> Option<(Frame, JointI
     });
     let apart = distances.filter(|(.., distance)| *distance > SAME_PLACE * mechanism.size);
     apart.min_by(|one, other| one.2.total_cmp(&other.2))
+}
+
+/// Corners that are drawn on a face on which their body stands, without a contact there.
+fn bare_corners(mechanism: &Mechanism) -> Vec<Fault> {
+    let on_face = mechanism.bare_corners().into_iter().filter(|corner| corner.is_on_face(mechanism.size));
+    let one = |corner: BareCorner| {
+        let wanted = corner.wanted();
+        let joint = &mechanism.joints[corner.joint.index()];
+        let doubt = Doubt::BareCorner { corner: corner.name, joint: joint.name.to_string(), wanted };
+        warning(doubt, joint.place.clone())
+    };
+    on_face.map(one).collect()
 }
 
 /// The joint that the drawing leaves most open, if that is no rounding.

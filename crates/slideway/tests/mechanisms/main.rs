@@ -38,6 +38,7 @@ mod one_sided_resting;
 mod one_sided_rolling;
 mod one_sided_shapes;
 mod one_sided_systems;
+mod one_sided_words;
 mod positions;
 mod preload_gap;
 mod press_fits;

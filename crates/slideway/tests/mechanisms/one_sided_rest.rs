@@ -229,6 +229,24 @@ mu = 0
 slide = "rail"
 "#;
 
+/// A disc between two walls is wedged without any load from `mu = tan(alpha)` on, with half of their angle `alpha`: the line through
+/// both contacts lies in both cones then.
+#[rstest]
+#[case(20.0)]
+#[case(30.0)]
+#[case(45.0)]
+fn a_disc_is_wedged_from_the_tangent_of_the_half_angle_on(#[case] alpha: f64) {
+    let text = include_str!("../../models/shaft-in-v-block.toml");
+    for (part, wedged) in [(1.0 - 1e-6, false), (1.0 + 1e-6, true)] {
+        let mu = (part * alpha.to_radians().tan()).to_string();
+        let beta = format!("{} deg", 90.0 - alpha);
+        let list = [("mu", mu.as_str()), ("beta", beta.as_str()), ("speed", "0")];
+        let found = held(text, &list, &HoldOptions::default());
+        let wedging = &found.at_rest.as_ref().unwrap().wedging;
+        assert_eq!(!wedging.is_empty(), wedged, "{alpha} {wedging:?}");
+    }
+}
+
 /// Nothing pulls a ladder to its wall.
 #[test]
 fn a_ladder_is_pulled_off_its_wall() {

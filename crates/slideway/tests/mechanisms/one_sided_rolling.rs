@@ -249,7 +249,8 @@ fn what_cannot_stick_is_refused() {
     assert!(matches!(fault(&apart), FaultKind::Both { first: "sticks = true", .. }), "{:?}", fault(&apart));
     // Both ends of a ladder: four rows, three motions.
     let ladder = include_str!("../../models/ladder.toml");
-    let ladder = ladder.replace("type = \"corner_on_face\"", "type = \"corner_on_face\"\nsticks = true");
+    let ladder = ladder.replace("mu = 0.5\n\n[joints.head]", "mu = 0.5\nsticks = true\n\n[joints.head]");
+    let ladder = ladder.replace("mu = 0.3\n", "mu = 0.3\nsticks = true\n");
     assert!(matches!(fault(&ladder), FaultKind::Redundant { .. }), "{:?}", fault(&ladder));
     assert_eq!(report_on(&wheel("sticks = true", 0.5)).status, Status::One);
 }

@@ -206,7 +206,7 @@ fn following(search: &PhaseSearch<'_>) -> Result<Successors, Faults> {
     without_copies(search, &mut found.list);
     if let ([alone], Detail::Order) = (&mut found.list[..], detail) {
         // Nothing was to be ordered, so that no group has a verdict.
-        let rests = alone.phase.is_at_rest();
+        let rests = alone.phase.is_at_rest(search.instant.mechanism);
         let whole = || verdict(search.instant, event.configuration, &alone.phase);
         let verdict = if rests { Verdict::NotComputed } else { whole() };
         alone.attainability = Attainability::without_eigenvalues(verdict, "");

@@ -6,17 +6,13 @@ use crate::ids::ContactId;
 use crate::motion::decision::{Landing, landing};
 use crate::motion::moving::cause::Cause;
 
-/// Within this part of the size of the mechanism beyond its end a contact still meets its face: what the drawing puts at the end is
-/// off by rounding.
-const ON_END: f64 = 1e-9;
-
 impl Run<'_, '_> {
     /// Returns whether a contact reaches the line of its face beyond its ends.
     pub(super) fn is_beside(&self, contact: ContactId) -> bool {
         let equations = &self.smooth.equations;
-        let slider = equations.mechanism.slider(equations.mechanism.contacts[contact.index()].joint);
-        let room = |end| slider.map_or(0.0, |slider| equations.room_on_face(slider, contact, end));
-        room(-1.0).min(room(1.0)) < -ON_END * equations.mechanism.size
+        let contact = &equations.mechanism.contacts[contact.index()];
+        let slider = equations.mechanism.slider(contact.joint);
+        slider.is_some_and(|slider| equations.is_beside_face(slider, contact))
     }
 
     /// The impact of contacts on their faces, if the causes tell of one.

@@ -199,6 +199,7 @@ impl<'a, 'm> Run<'a, 'm> {
             }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
             Cause::Touches(contact) if self.is_beside(*contact) => Some(End::BesideFace(*contact)),
+            Cause::BareCorner { wanted, .. } => Some(End::BareCorner { wanted }),
             Cause::ReactionLimit(contact) => Some(End::ReactionLimit(*contact)),
             Cause::User(index, _) => self.options.events[*index].ends.then_some(End::UserEvent(*index)),
             _ => None,

@@ -27,6 +27,15 @@ pub enum Cause {
         /// Kinetic energy that is lost (J); of contacts that land together the first has that of all.
         energy_lost: Option<f64>,
     },
+    /// A corner without contact reaches a face.
+    BareCorner {
+        /// Its name.
+        corner: String,
+        /// The joint whose face it is.
+        joint: JointId,
+        /// The type of a joint that gives it a contact.
+        wanted: &'static str,
+    },
     /// The sliding velocity of a joint has reached zero.
     Stops(JointId),
     /// The joints that stick cannot do so any longer.
@@ -104,6 +113,8 @@ kinds! {
         Touches,
         /// A contact lands on its face.
         Lands,
+        /// A corner without contact reaches a face.
+        BareCorner,
         /// A joint stops sliding.
         Stops,
         /// Sticking joints begin to slip.
@@ -161,7 +172,7 @@ impl Cause {
             Watched::Overlap(joint) => Self::OverlapVanishes(joint),
             Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
             Watched::User(index, _) => Self::User(index, names(index)),
-            Watched::Relation(_) | Watched::HeldReactions => return None,
+            Watched::Relation(_) | Watched::HeldReactions | Watched::BareCorner(_) => return None,
         })
     }
 
@@ -181,7 +192,7 @@ impl Cause {
             | Self::Hits { joint, .. }
             | Self::MeetsPad { joint, .. }
             | Self::LeavesPad { joint, .. } => Some(&mechanism.joints[joint.index()].name),
-            Self::User(_, name) | Self::LoadJumps(name) => Some(name),
+            Self::User(_, name) | Self::LoadJumps(name) | Self::BareCorner { corner: name, .. } => Some(name),
             Self::Start | Self::Slips | Self::Locks | Self::Folds | Self::Jams { .. } => None,
         }
     }

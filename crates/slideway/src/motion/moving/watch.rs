@@ -1,5 +1,6 @@
 //! What is watched within a phase: functions that end it, or are told, when they fall through zero.
 
+use super::cause::Cause;
 use super::equations::Equations;
 use super::linear::Determinant;
 use super::magnitudes::{Magnitude, Magnitudes};
@@ -7,6 +8,7 @@ use super::switching::{Switch, Switching};
 use crate::fault::Fault;
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::Reaction;
+use crate::mechanism::BareCorner;
 use crate::model::SliderKind;
 use crate::modes::Side;
 use crate::motion::options::{Crossing, UserEvent};
@@ -20,6 +22,8 @@ const VELOCITY_TOLERANCE: f64 = 1e-10;
 const MARGIN_TOLERANCE: f64 = 1e-10;
 /// Lengths below this multiple of the size are rounding.
 const LENGTH_TOLERANCE: f64 = 1e-12;
+/// Corners that are drawn on their face, which contacts hold there, are off by less.
+const DRAWN_TOLERANCE: f64 = 1e-6;
 /// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as
 /// locked.
 const LOCKED: f64 = 1e-9;
@@ -58,6 +62,8 @@ pub(in crate::motion) enum Watched {
     Overlap(JointId),
     /// The gap of a contact that is open.
     Gap(ContactId),
+    /// How far a corner without contact is from a face, by its number among these.
+    BareCorner(usize),
     /// Distance to the least (-1) or greatest (1) displacement of a sliding joint.
     Travel(JointId, f64),
     /// A function of the user, or its negative.
@@ -92,6 +98,7 @@ impl Watched {
             | Self::Spin(..)
             | Self::Overlap(_)
             | Self::Gap(_)
+            | Self::BareCorner(_)
             | Self::Travel(..)
             | Self::User(..)
             | Self::Relation(_) => Needs::Motion,
@@ -103,6 +110,8 @@ impl Watched {
 pub(in crate::motion) struct Watch<'o> {
     pub(in crate::motion) list: Vec<Watched>,
     user: &'o [UserEvent],
+    /// Corners that may reach a face where the model has no contact.
+    bare: Vec<BareCorner>,
     reaction_limit: Option<f64>,
     /// The determinant at the start of the phase, and the product of the overlaps.
     reference: (Determinant, f64),
@@ -114,10 +123,12 @@ impl<'o> Watch<'o> {
     /// Nothing yet.
     pub(in crate::motion) fn new(
         user: &'o [UserEvent],
+        bare: Vec<BareCorner>,
         reaction_limit: Option<f64>,
         magnitudes: Magnitudes,
     ) -> Self {
-        Self { list: Vec::new(), user, reaction_limit, reference: (Determinant::default(), 1.0), magnitudes }
+        let reference = (Determinant::default(), 1.0);
+        Self { list: Vec::new(), user, bare, reaction_limit, reference, magnitudes }
     }
 
     /// Chooses what is watched in a phase that the equations have just entered.
@@ -176,6 +187,8 @@ impl<'o> Watch<'o> {
         if slides || phase.hinges.iter().any(|hinge| hinge.state != JointPhase::Sticking) {
             self.list.push(Watched::Determinant);
         }
+        let bare = self.bare.iter().enumerate().filter(|(_, corner)| may_reach(corner, equations));
+        self.list.extend(bare.map(|(index, _)| Watched::BareCorner(index)));
         for (index, event) in self.user.iter().enumerate() {
             if event.crossing != Crossing::Rising {
                 self.list.push(Watched::User(index, 1.0));
@@ -205,6 +218,14 @@ impl<'o> Watch<'o> {
                 self.list.extend(Side::BOTH.map(|side| Watched::Between(contact, side)));
             }
         }
+    }
+
+    /// That a corner without contact reaches a face, unless it passes beyond the ends.
+    pub(in crate::motion) fn bare_corner(&self, index: usize, equations: &Equations<'_>) -> Option<Cause> {
+        let corner = &self.bare[index];
+        let reaches = !equations.is_beside_face(&corner.slider, &corner.contact);
+        let (joint, wanted) = (corner.joint, corner.wanted());
+        reaches.then(|| Cause::BareCorner { corner: corner.name.clone(), joint, wanted })
     }
 
     /// The greatest normal force that is permitted (N).
@@ -257,6 +278,7 @@ impl<'o> Watch<'o> {
                 configuration.overlap(mechanism, slider).unwrap_or(0.0) - LEAVES * slider.length
             }
             Watched::Gap(contact) => configuration.gap(mechanism, contact)[0],
+            Watched::BareCorner(index) => gap_of(&self.bare[index], equations),
             Watched::Travel(joint, end) => equations.room_to_slide(joint, end),
             Watched::User(index, sign) => sign * self.user[index].value(mechanism, configuration)?,
         })
@@ -284,6 +306,7 @@ impl<'o> Watch<'o> {
             Watched::Velocity(..) => velocity,
             Watched::Spin(..) => velocity / mechanism.size,
             Watched::Overlap(_) | Watched::Gap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
+            Watched::BareCorner(_) => DRAWN_TOLERANCE * mechanism.size,
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
@@ -303,6 +326,16 @@ impl<'o> Watch<'o> {
         };
         self.magnitudes.of_joint(mechanism, joint)
     }
+}
+
+fn gap_of(corner: &BareCorner, equations: &Equations<'_>) -> f64 {
+    equations.configuration.gap_at(equations.mechanism, &corner.slider, &corner.contact)[0]
+}
+
+/// Returns whether a corner is on the free side of a face, and not beyond its ends where it passes its line.
+fn may_reach(corner: &BareCorner, equations: &Equations<'_>) -> bool {
+    let (gap, near) = (gap_of(corner, equations), DRAWN_TOLERANCE * equations.mechanism.size);
+    gap > near || gap >= -near && !equations.is_beside_face(&corner.slider, &corner.contact)
 }
 
 /// The normal force of a contact towards the side that is pressed (N).

@@ -113,6 +113,9 @@ impl Words<'_> {
                 None => format!("the normal force of {} vanishes", self.contact(*contact)),
             },
             Cause::Touches(contact) => format!("{} reaches its face", self.contact(*contact)),
+            Cause::BareCorner { corner, joint, .. } => {
+                format!("{corner} reaches the face of {}", self.mechanism.joints[joint.index()].name)
+            }
             Cause::Lands { contact, speed, energy_lost } => {
                 let lands = format!(
                     "{} lands with {}",

@@ -105,6 +105,11 @@ pub enum End {
     OverlapVanished(JointId),
     /// A contact that was open reaches the line of its face beyond the ends of the face.
     BesideFace(ContactId),
+    /// A corner reaches a face where the model has no contact; the type of a joint that gives it one.
+    BareCorner {
+        /// The type.
+        wanted: &'static str,
+    },
     /// The normal force of a contact has reached the limit that was given.
     ReactionLimit(ContactId),
     /// A function of the user has passed zero; its number.

@@ -31,6 +31,10 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             "It ends at {time}: {} passes the line of its face beyond its end, and what it meets there is not in the model.",
             mechanism.contacts[id.index()].name
         ),
+        End::BareCorner { wanted } => format!(
+            "It ends at {time}: {}, where the model has no contact. Add a `{wanted}` there, with its `face` and `closed = false`.",
+            last_words(history)
+        ),
         End::ReactionLimit(id) => format!(
             "It ends at {time}: the normal force of {} reaches its limit, which counts as a jam.",
             mechanism.contacts[id.index()].name
@@ -73,7 +77,8 @@ fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
     // What sticks may turn about the corner with which it does.
     let is_still = history.at_end().1.kinetic <= STILL * history.energy_scale;
-    let rest = history.phases.last().filter(|interval| interval.phase.is_at_rest() && is_still);
+    let rest =
+        history.phases.last().filter(|interval| interval.phase.is_at_rest(&history.mechanism) && is_still);
     let Some(rest) = rest else {
         let bodies = 3 * history.mechanism.bodies.len();
         let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);

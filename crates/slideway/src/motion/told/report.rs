@@ -158,6 +158,8 @@ kinds! {
         OverlapVanished,
         /// A contact that was open reaches the line of its face beyond the ends of the face.
         BesideFace,
+        /// A corner reaches a face where the model has no contact.
+        BareCorner,
         /// A normal force reaches its limit.
         ReactionLimit,
         /// An event of the model that stops the motion.
@@ -385,7 +387,9 @@ fn attainable(history: &History, event: &Event, reader: &mut Reader<'_>) -> Opti
     let decided = event.taken.and_then(|taken| event.successors.get(taken)).map(|taken| taken.verdict);
     let verdict = match (decided, &event.phase) {
         (Some(verdict), _) if verdict != Verdict::NotComputed => verdict,
-        (_, Some(phase)) if !phase.is_at_rest() && phase.open(&history.mechanism).is_empty() => {
+        (_, Some(phase))
+            if !phase.is_at_rest(&history.mechanism) && phase.open(&history.mechanism).is_empty() =>
+        {
             verdict_on(&history.mechanism, reader.configuration(event.time)?, phase)
         }
         _ => Verdict::NotComputed,

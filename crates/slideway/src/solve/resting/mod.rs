@@ -33,7 +33,7 @@ use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::modes::{Certificate, ContactState};
 use crate::pattern::{Affine, AffineSet, sliding_in_words, sticking_in_words};
 use crate::report::{
-    Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, Verdict,
+    Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, SpeedChange, Verdict,
 };
 pub(super) use jam::impulses as jam_impulses;
 use nalgebra::DVector;
@@ -316,7 +316,27 @@ impl<'a> Resting<'a> {
         let mut kept = self.answer.kept(&point.state(), tipped)?;
         kept.attainability = self.attainability(point);
         kept.joints = self.words(point);
+        self.tell_speeds(&mut kept);
         Some(kept)
+    }
+
+    /// Tells what becomes of the coordinates at rest from their accelerations, which have no bounds here. Where contacts lift off
+    /// the motion is not that of the coordinates alone.
+    fn tell_speeds(&self, solution: &mut Solution) {
+        let Mechanism { bodies, size, .. } = self.answer.mechanism;
+        let masses = bodies.iter().map(|body| body.mass).filter(|mass| *mass > 0.0);
+        let lightest = masses.min_by(f64::total_cmp).unwrap_or(1.0);
+        let rounding = TOLERANCE * self.force / lightest;
+        let opens = solution.contacts.iter().any(|contact| contact.gap_acceleration.is_some());
+        for (one, coordinate) in solution.coordinates.iter_mut().zip(&self.answer.mechanism.coordinates) {
+            if one.speed != Some(SpeedChange::MayStart) {
+                continue;
+            }
+            let rounding = if coordinate.kind.is_angle() { rounding / size } else { rounding };
+            let told = if one.acceleration.abs() <= rounding { 0.0 } else { one.acceleration };
+            let speed = SpeedChange::of(0.0, Some([told; 2]));
+            one.speed = (!opens || speed != SpeedChange::StaysAtRest).then_some(speed);
+        }
     }
 
     /// Judges whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick:
@@ -337,8 +357,10 @@ impl<'a> Resting<'a> {
             told(Verdict::Unattainable)
         } else if mechanism.drives.is_empty() && !(0..states.len()).filter(is_closed).any(rubs) {
             told(Verdict::Attainable)
+        } else if sticks && !mechanism.drives.is_empty() {
+            not_computed("drives act beside contacts that stick")
         } else if sticks {
-            not_computed("some contacts stick while others slide, or drives act")
+            not_computed("some contacts stick while others slide")
         } else {
             let data = ProblemData { mechanism, influence, velocity_signs: &signs };
             let closed = Closed::new(data, (configuration, self.answer.equations), &open);

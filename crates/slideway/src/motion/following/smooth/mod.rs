@@ -101,7 +101,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
             next: 0.0,
             scale: vec![0.0; size],
             energy: 0.0,
-            watch: Watch::new(&options.events, options.reaction_limit, magnitudes),
+            watch: Watch::new(&options.events, mechanism.bare_corners(), options.reaction_limit, magnitudes),
             switching: Switching::new(equations.mechanism, &equations.configuration),
             resolution: Resolution::new(equations.mechanism),
             options,
@@ -287,6 +287,7 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let hinges: Vec<JointId> = self.equations.hinge_joints().collect();
         let one = |watched: &Watched| match watched {
             Watched::Determinant => Some(self.end_of_mode()),
+            Watched::BareCorner(index) => self.watch.bare_corner(*index, &self.equations),
             _ => Cause::of(*watched, [&self.equations.sliders, &hinges], name),
         };
         watched.iter().filter_map(one).collect()
