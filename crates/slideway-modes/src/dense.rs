@@ -41,14 +41,31 @@ impl<'p> Pace<'p> {
     }
 }
 
-/// Singular values, in no order, with their vectors; `None` if a number is not finite, or if the iteration takes more steps
-/// than it ever needs.
-pub(crate) fn singular_values(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
+/// Singular values, in no order, with their left and right vectors as far as these are wanted; `None` if there is no number, or
+/// one that is not finite, or if the iteration does not come to an end.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use slideway_modes::dense::singular_values;
+///
+/// let found = singular_values(&dmatrix![0.0, 2.0; 1.0, 0.0], [false; 2]).expect("it is regular");
+/// assert_eq!((found.singular_values.max(), found.singular_values.min()), (2.0, 1.0));
+/// assert!(singular_values(&dmatrix![f64::NAN], [false; 2]).is_none());
+/// ```
+///
+/// nalgebra's own has no end where an entry is not a number, and where squares of a part of the matrix underflow. So entries that
+/// are smaller than the rounding of the greatest one are left out, if the iteration does not end with them.
+pub fn singular_values(matrix: &DMatrix<f64>, [left, right]: [bool; 2]) -> Option<SVD<f64, Dyn, Dyn>> {
     let steps = STEPS_FOR_EACH * (matrix.nrows() + matrix.ncols());
     let is_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-    let finite = Some(matrix).filter(|matrix| is_finite(matrix.as_slice()));
-    finite
-        .and_then(|matrix| SVD::try_new_unordered(matrix, true, true, 5.0 * f64::EPSILON, steps))
+    if matrix.is_empty() || !is_finite(matrix.as_slice()) {
+        return None;
+    }
+    let least = f64::EPSILON * matrix.amax();
+    let rounded = || matrix.map(|entry| if entry.abs() < least { 0.0 } else { entry });
+    let found = |matrix| SVD::try_new_unordered(matrix, left, right, 5.0 * f64::EPSILON, steps);
+    found(matrix.clone())
+        .or_else(|| found(rounded()))
         .filter(|found| is_finite(found.singular_values.as_slice()))
 }
 
