@@ -140,11 +140,12 @@ def solution_fault(problem, point, solution, total):
 
 
 def distances(problem, point, solution):
-    """How far the numbers of a solution are from those of a point, relative to their size, the farthest first."""
-    texts, far = beyond(problem, solution), []
+    """How far the numbers of a solution are from those of a point, relative to their size, the farthest first; what is within the
+    radius of the solution is not far."""
+    texts, far, radius = beyond(problem, solution), [], Fraction(solution.get("enclosure_radius") or 0)
     for item, value, x in zip(names(problem)[0], flat(problem, solution), reported(problem, point)):
         value = Fraction(value) if value is not None else nearest(texts[item]) if item in texts else None
-        if value is not None and (value or x):
+        if value is not None and abs(value - x) > radius:
             far.append(abs(value - x) / max(abs(x), abs(value)))
     return sorted(far, reverse=True)
 

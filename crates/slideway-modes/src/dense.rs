@@ -266,6 +266,27 @@ mod tests {
         }
     }
 
+    /// Of parts whose squares underflow beside the rest, as of a lever of no length: nalgebra's iteration goes on for ever.
+    #[test]
+    fn singular_values_of_any_numbers_come_to_an_end() {
+        for exponent in [-100, -160, -200, -310] {
+            let tiny = 10.0_f64.powi(exponent);
+            let matrix = random_matrix(6, 6)
+                .map_with_location(|row, column, entry| if row.min(column) > 2 { entry * tiny } else { 0.0 });
+            let matrix =
+                matrix + DMatrix::from_fn(6, 6, |row, column| f64::from(u8::from(row == column && row < 3)));
+            let found = singular_values(&matrix, [true; 2]).expect("it comes to an end");
+            let values = &found.singular_values;
+            assert_eq!(values.iter().filter(|value| (**value - 1.0).abs() < 1e-14).count(), 3, "{values}");
+            assert!(
+                values.iter().all(|value| *value >= 0.0 && (*value > 0.5 || *value < 10.0 * tiny)),
+                "{values}"
+            );
+        }
+        assert!(singular_values(&DMatrix::from_element(3, 3, f64::INFINITY), [true; 2]).is_none());
+        assert!(singular_values(&DMatrix::zeros(0, 3), [true; 2]).is_none());
+    }
+
     #[test]
     fn singular_matrices_have_no_inverse() {
         let mut matrix = random_matrix(230, 230);

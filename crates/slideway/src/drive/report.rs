@@ -156,6 +156,9 @@ pub struct DriveSolution {
     pub power: f64,
     /// Against the same motion without friction.
     pub efficiency: Efficiency,
+    /// Whether a block floats within its play.
+    #[serde(skip)]
+    pub(super) floats: bool,
 }
 
 /// The efforts of infinitely many solutions.
@@ -325,6 +328,9 @@ pub struct CourseRow {
     /// Where there are infinitely many solutions: between which values their efforts lie; absent elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<EffortRange>,
+    /// The contact modes where a block floats within its play, which the pattern does not tell.
+    #[serde(skip)]
+    pub(super) floating: Option<String>,
 }
 
 /// A direction of motion.

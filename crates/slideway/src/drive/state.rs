@@ -84,6 +84,7 @@ pub(super) fn efforts(report: &SolveReport, velocities: &[f64]) -> AllEfforts {
             pattern: solution.pattern.clone(),
             preload_gap,
             joints: solution.joints.clone(),
+            floats: !solution.floating.is_empty(),
             attainability: solution.attainability.verdict,
             power: power(&efforts, velocities),
             efficiency: efficiency(&efforts, &frictionless, velocities),
