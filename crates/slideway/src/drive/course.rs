@@ -245,8 +245,10 @@ impl Tabulated<'_> {
     fn floating(&self, efforts: &Efforts, mode: &[ContactState]) -> Option<String> {
         let forces = efforts.normal_forces(mode)?;
         let floats = |k: usize| efforts.mechanism.excess.shares(ContactId(k)) && forces[k] == 0.0;
-        let told = pattern(mode).chars().enumerate().map(|(k, sign)| if floats(k) { '0' } else { sign });
-        (0..mode.len()).any(floats).then(|| self.naming.in_words(&told.collect::<String>()))
+        let told = pattern(mode);
+        let told = told.chars().enumerate().map(|(k, sign)| if floats(k) { '0' } else { sign });
+        let told: String = told.collect();
+        (0..mode.len()).any(floats).then(|| self.naming.in_words(&told))
     }
 }
 
