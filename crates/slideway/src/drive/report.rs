@@ -319,7 +319,7 @@ pub struct CourseRow {
     pub efforts: Option<Vec<f64>>,
     /// 1 or -1 for each drive whose effort grows without bound there, else 0.
     pub grows: Vec<i8>,
-    /// Without friction; null where there is no position.
+    /// Without friction; null where there is no position, and where it is not known whether there is a solution.
     pub frictionless: Option<Vec<f64>>,
     /// Of all drives together (W).
     pub power: Option<f64>,
