@@ -1,7 +1,5 @@
 //! Matrices of intervals, and bounds on rounding errors in products of plain matrices.
 
-use std::ops::Range;
-
 use nalgebra::{DMatrix, DVector};
 
 use crate::dense;
@@ -79,12 +77,6 @@ impl IntervalMatrix {
     #[must_use]
     pub fn transposed(&self) -> Self {
         Self { centre: self.centre.transpose(), radius: self.radius.transpose() }
-    }
-
-    /// Some of the columns.
-    pub(crate) fn columns(&self, range: Range<usize>) -> Self {
-        let part = |matrix: &DMatrix<f64>| matrix.columns_range(range.clone()).into_owned();
-        Self { centre: part(&self.centre), radius: part(&self.radius) }
     }
 
     /// These columns, then those of another matrix with as many rows.

@@ -15,8 +15,9 @@
 //!    or by an infeasible linear relaxation (section 4 (a), (b)); a node with all contacts decided is a
 //!    pattern to decide. If the numbers are exact, the signs of single equations leave some contacts only one side, and
 //!    a contact whose columns are opposite, a free unknown, is not branched on where the others determine it: the
-//!    relaxation, and the vectors that exclude nodes, are those of the equations without free unknowns, their Schur
-//!    complement. A node is then also settled if all its solutions are those of one pattern, a face of the relaxation (section 4, "Faces"): degenerate
+//!    relaxation, and the vectors that exclude nodes, are those of the equations without free unknowns, their Schur complement
+//!    in integers. A node is then also
+//!    settled if all its solutions are those of one pattern, a face of the relaxation (section 4, "Faces"): degenerate
 //!    solutions and continua are met once.
 //!    The next contact to branch on is the one for which forbidding either side costs
 //!    most, as estimated from one dual step.

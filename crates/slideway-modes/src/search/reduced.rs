@@ -1,8 +1,8 @@
 //! The relaxation of nodes without free unknowns.
 //!
 //! While a free contact may be on both sides, it takes whatever value its equations ask for. What is left for the others is
-//! the mode problem of the Schur complement ([`WithoutFree::others`]), with as many equations as unknowns. It is known
-//! within bounds, for which the relaxation accounts.
+//! the mode problem of the Schur complement ([`WithoutFree::others`]), with as many equations as unknowns. Its integers are
+//! rounded within bounds, for which the relaxation accounts.
 
 use nalgebra::DVector;
 

@@ -9,10 +9,10 @@ use std::sync::{Arc, OnceLock};
 
 use dashu_int::IBig;
 use dashu_int::ops::BitTest;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::separation::{Separated, log2, scaled, separate};
-use crate::certificate::{IntervalMatrix, LiftedSystem, enclose_solution_while, make_primitive};
+use crate::certificate::{IntervalMatrix, LiftedSystem, make_primitive};
 use crate::problem::{BySide, IntervalModeProblem};
 use crate::solutions::ContactSet;
 
@@ -66,51 +66,20 @@ impl WithoutFree {
         Some(left.combined(&vector, self.system.rows()))
     }
 
-    /// The mode problem of the other contacts, in their order, within bounds; `None` if the columns of the free contacts are
-    /// dependent, if a contact has a jump, if the numbers differ too much in size, or if there is no time.
-    ///
-    /// Bounds of the Schur complement are found much sooner than its integers, which are asked where there are none.
+    /// The mode problem of the other contacts, in their order, with its integers rounded within bounds; `None` if the columns
+    /// of the free contacts are dependent, if a contact has a jump, if the numbers differ too much in size, or if there is
+    /// no time.
     pub(super) fn others(&self, proceed: &mut dyn FnMut() -> bool) -> Option<IntervalModeProblem> {
         let contacts = self.system.contacts();
-        let (free, others): (Vec<usize>, Vec<usize>) =
-            (0..contacts).partition(|&contact| self.free.contains(contact));
-        if free.is_empty() || self.system.width() > 2 * contacts {
+        let others: Vec<usize> = (0..contacts).filter(|&contact| !self.free.contains(contact)).collect();
+        if others.len() == contacts || self.system.width() > 2 * contacts {
             return None;
         }
-        let columns: Vec<usize> =
-            others.iter().copied().chain(others.iter().map(|contact| contacts + contact)).collect();
-        if let Some(problem) = self.complement(&free, &columns, proceed).as_ref().and_then(mode_problem) {
-            return Some(problem);
-        }
-        let left = &self.left(proceed)?.system;
-        (left.rows() == others.len()).then_some(())?;
-        mode_problem(&within_bounds(left, &columns)?)
-    }
-
-    /// Bounds of the Schur complement `S` of the columns `P` of the free contacts, for these columns and, last, the right-hand
-    /// side, `R`. With unit columns `E` of the equations that are kept, for which `P` and `E` together are regular,
-    ///
-    /// ```text
-    /// P X + E S = R
-    /// ```
-    fn complement(
-        &self,
-        free: &[usize],
-        columns: &[usize],
-        proceed: &mut dyn FnMut() -> bool,
-    ) -> Option<IntervalMatrix> {
-        let all: Vec<usize> = free.iter().chain(columns).copied().collect();
-        let all = within_bounds(&self.system, &all)?;
-        let (rows, width) = all.shape();
-        let (own, right) = (all.columns(0..free.len()), all.columns(free.len()..width));
-        // The equations of the pivots are solved for the free unknowns; the others are kept.
-        let mut order = DVector::from_fn(rows, |row, _| row);
-        own.centre().clone().lu().p().permute_rows(&mut order);
-        let kept = order.rows_range(free.len()..);
-        let units = DMatrix::from_fn(rows, kept.len(), |row, at| f64::from(u8::from(row == kept[at])));
-        let matrix = own.beside(&IntervalMatrix::exact(units));
-        let solved = enclose_solution_while(&matrix, &right, proceed)?.solution;
-        Some(solved.transposed().columns(free.len()..rows).transposed())
+        let left = self.left(proceed)?;
+        (left.system.rows() == others.len()).then_some(())?;
+        let negative = others.iter().map(|&contact| contacts + contact);
+        let columns = others.iter().copied().chain(negative).map(|column| left.system.column(column));
+        left.rounded(&columns.collect::<Vec<_>>())
     }
 
     fn left(&self, proceed: &mut dyn FnMut() -> bool) -> Option<&Left> {
@@ -124,6 +93,32 @@ impl WithoutFree {
 }
 
 impl Left {
+    /// The mode problem with these columns, first all of positive sides and then all of negative ones.
+    fn rounded(&self, columns: &[&[IBig]]) -> Option<IntervalModeProblem> {
+        let rows = self.system.rows();
+        let largest = |row: usize| columns.iter().map(|column| log2(&column[row])).max().unwrap_or(0);
+        let exponents: Vec<i32> = (0..rows).map(|row| -largest(row)).collect();
+        let matrix = |columns: &[&[IBig]]| {
+            let (mut centre, mut radius) =
+                (DMatrix::zeros(rows, columns.len()), DMatrix::zeros(rows, columns.len()));
+            for (at, entry) in columns.iter().enumerate().flat_map(|(at, column)| {
+                column.iter().enumerate().map(move |(row, entry)| ((row, at), entry))
+            }) {
+                centre[at] = scaled(entry, exponents[at.0]);
+                // The quotient of two rounded numbers would not be a normal one.
+                (entry.is_zero() || centre[at].abs() > f64::MIN_POSITIVE.sqrt()).then_some(())?;
+                if entry.bit_len() > f64::MANTISSA_DIGITS as usize {
+                    radius[at] = (centre[at].abs() * f64::EPSILON).next_up();
+                }
+            }
+            IntervalMatrix::around(centre, radius)
+        };
+        let (positive, negative) = columns.split_at(rows);
+        let none = IntervalMatrix::exact(DMatrix::zeros(rows, rows));
+        let columns = BySide { positive: matrix(positive)?, negative: matrix(negative)? };
+        IntervalModeProblem::new(&columns, &BySide::same(none), &matrix(&[self.system.right()])?).ok()
+    }
+
     /// `sum_i t_i K_i`, without common factor.
     fn combined(&self, vector: &[IBig], rows: usize) -> Vec<IBig> {
         let mut all = vec![IBig::ZERO; rows];
@@ -133,35 +128,4 @@ impl Left {
         make_primitive(&mut all);
         all
     }
-}
-
-/// Columns and, last, the right-hand side of equations, with the greatest entry of each about 1; `None` if the numbers differ too
-/// much in size.
-fn within_bounds(system: &LiftedSystem, columns: &[usize]) -> Option<IntervalMatrix> {
-    let columns: Vec<&[IBig]> =
-        columns.iter().map(|&column| system.column(column)).chain([system.right()]).collect();
-    let rows = system.rows();
-    let largest = |row: usize| columns.iter().map(|column| log2(&column[row])).max().unwrap_or(0);
-    let exponents: Vec<i32> = (0..rows).map(|row| -largest(row)).collect();
-    let (mut centre, mut radius) = (DMatrix::zeros(rows, columns.len()), DMatrix::zeros(rows, columns.len()));
-    for (at, column) in columns.iter().enumerate() {
-        for (row, entry) in column.iter().enumerate() {
-            let value = scaled(entry, exponents[row]);
-            // The quotient of two rounded numbers would not be a normal one.
-            (entry.is_zero() || value.abs() > f64::MIN_POSITIVE.sqrt()).then_some(())?;
-            centre[(row, at)] = value;
-            if entry.bit_len() > f64::MANTISSA_DIGITS as usize {
-                radius[(row, at)] = (value.abs() * f64::EPSILON).next_up();
-            }
-        }
-    }
-    IntervalMatrix::around(centre, radius)
-}
-
-/// The mode problem with these columns: all of positive sides, all of negative ones, and the right-hand side.
-fn mode_problem(all: &IntervalMatrix) -> Option<IntervalModeProblem> {
-    let rows = all.shape().0;
-    let columns = BySide { positive: all.columns(0..rows), negative: all.columns(rows..2 * rows) };
-    let none = IntervalMatrix::exact(DMatrix::zeros(rows, rows));
-    IntervalModeProblem::new(&columns, &BySide::same(none), &all.columns(2 * rows..2 * rows + 1)).ok()
 }
