@@ -21,6 +21,12 @@ def near(first, second, relative):
     return all(abs(a - b) <= relative * scale for a, b in zip(first, second))
 
 
+def in_motion(solution, pattern):
+    """A pattern of `solve` as `simulate` writes it: what has lifted off is open."""
+    return "".join("0" if contact.get("gap_acceleration") else sign for contact, sign in zip(solution["contacts"], pattern)) \
+        + pattern[len(solution["contacts"]):]
+
+
 def matched(first, second, relative=1e-7):
     """Whether two lists of lists are the same in some order."""
     rest = list(second)
@@ -279,14 +285,15 @@ class Asked:
         first = report["events"][0]
         contacts = len(report["contacts"])          # behind them the mode has the directions in which rough hinges turn
         modes = [b["mode"][:contacts] for b in first["branches"]] or [first["mode"][:contacts]]
-        allowed = {p for s in listed for p in s["patterns"]}
-        if len(first["branches"]) > 1 and Counter(modes) != Counter(s["pattern"] for s in listed) or not set(modes) <= allowed:
+        allowed = {in_motion(s, p) for s in listed for p in s["patterns"]}
+        told = Counter(in_motion(s, s["pattern"]) for s in listed)
+        if len(first["branches"]) > 1 and Counter(modes) != told or not set(modes) <= allowed:
             self.fault("simulate: modes", command, report, f"solve: {[s['pattern'] for s in listed]}")
             return
         if report["stop"] == report["until"] and len(report["events"]) == 1:
             rates = [(b["rate"] - a["rate"]) / step for a, b in zip(report["initial"], report["last"])]
             taken = next((b["mode"] for b in first["branches"] if b["taken"]), first["mode"])[:contacts]
-            true = [c["acceleration"] for s in listed if taken in s["patterns"] for c in s["coordinates"]]
+            true = [c["acceleration"] for s in listed if taken in {in_motion(s, p) for p in s["patterns"]} for c in s["coordinates"]]
             # The motion is as exact as its tolerance, over a short step.
             room = report["tolerance"] / step * max(map(abs, [*true, *(a["rate"] for a in report["initial"])]), default=0.0)
             if len(true) == len(rates) and any(abs(a - b) > room for a, b in zip(rates, true)):

@@ -140,13 +140,15 @@ def solution_fault(problem, point, solution, total):
 
 
 def distances(problem, point, solution):
-    """How far the numbers of a solution are from those of a point, relative to their size, the farthest first."""
+    """How many signs of a solution are not those of a point, and how far its numbers are from there, relative to their size, the
+    farthest first."""
     texts, far = beyond(problem, solution), []
+    other = sum(x is not None and sign != x for sign, x in zip(solution["signs"], signs(problem, point)))
     for item, value, x in zip(names(problem)[0], flat(problem, solution), reported(problem, point)):
         value = Fraction(value) if value is not None else nearest(texts[item]) if item in texts else None
         if value is not None and (value or x):
             far.append(abs(value - x) / max(abs(x), abs(value)))
-    return sorted(far, reverse=True)
+    return other, sorted(far, reverse=True)
 
 
 def points_fault(problem, points, listed, total, all_of_them=True):
@@ -203,6 +205,8 @@ def hint(problem, answer):
         return None
     relative = Fraction(given["relative"])
     n = len(problem["q"])
+    if None in given["z"] + given["w"]:
+        return None                     # beyond the range of numbers
     z, w = ([Fraction(x) for x in given[name]] for name in "zw")
     for i in range(n):
         ones = [[float(i == j) for j in range(n)], problem["M"][i]] if problem["type"] == "lcp" else [problem["A"][i], problem["B"][i]]

@@ -21,6 +21,24 @@ fn files_of_the_project_pass() {
     }
 }
 
+/// All questions over ranges with few numbers in them, with numbers whose squares underflow, and wider than the greatest number.
+#[test]
+fn questions_over_ranges_that_nobody_would_write_end() {
+    let crank = gallery::MODELS.iter().position(|model| model.name == "bell-crank").unwrap();
+    let hostile = [
+        [1.657_809_2e-316, 5.776_622_002_767_455e-275],
+        [5e-324, 1e-323],
+        [-5e-324, 5e-324],
+        [1e-200, 1e-160],
+        [1e16, 1e16 + 2.0],
+        [-f64::MAX, f64::MAX],
+    ];
+    for (ends, question) in hostile.into_iter().flat_map(|ends| (0..7).map(move |question| (ends, question)))
+    {
+        ranges((u8::try_from(crank).unwrap(), question, [0, 1], ends));
+    }
+}
+
 /// Ends of ranges as a user may write them: ordinary ones, very great and small ones, and none at all.
 fn end() -> impl Strategy<Value = f64> {
     prop_oneof![-10.0..10.0, any::<f64>(), Just(0.0), Just(f64::MAX), Just(-f64::MAX), Just(f64::NAN)]

@@ -41,14 +41,31 @@ impl<'p> Pace<'p> {
     }
 }
 
-/// Singular values, in no order, with their vectors; `None` if a number is not finite, or if the iteration takes more steps
-/// than it ever needs.
-pub(crate) fn singular_values(matrix: DMatrix<f64>) -> Option<SVD<f64, Dyn, Dyn>> {
+/// Singular values, in no order, with their left and right vectors as far as these are wanted; `None` if there is no number, or
+/// one that is not finite, or if the iteration does not come to an end.
+///
+/// ```
+/// use nalgebra::dmatrix;
+/// use slideway_modes::dense::singular_values;
+///
+/// let found = singular_values(&dmatrix![0.0, 2.0; 1.0, 0.0], [false; 2]).expect("it is regular");
+/// assert_eq!((found.singular_values.max(), found.singular_values.min()), (2.0, 1.0));
+/// assert!(singular_values(&dmatrix![f64::NAN], [false; 2]).is_none());
+/// ```
+///
+/// nalgebra's own has no end where an entry is not a number, and where squares of a part of the matrix underflow. So entries that
+/// are smaller than the rounding of the greatest one are left out, if the iteration does not end with them.
+pub fn singular_values(matrix: &DMatrix<f64>, [left, right]: [bool; 2]) -> Option<SVD<f64, Dyn, Dyn>> {
     let steps = STEPS_FOR_EACH * (matrix.nrows() + matrix.ncols());
     let is_finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
-    let finite = Some(matrix).filter(|matrix| is_finite(matrix.as_slice()));
-    finite
-        .and_then(|matrix| SVD::try_new_unordered(matrix, true, true, 5.0 * f64::EPSILON, steps))
+    if matrix.is_empty() || !is_finite(matrix.as_slice()) {
+        return None;
+    }
+    let least = f64::EPSILON * matrix.amax();
+    let rounded = || matrix.map(|entry| if entry.abs() < least { 0.0 } else { entry });
+    let found = |matrix| SVD::try_new_unordered(matrix, left, right, 5.0 * f64::EPSILON, steps);
+    found(matrix.clone())
+        .or_else(|| found(rounded()))
         .filter(|found| is_finite(found.singular_values.as_slice()))
 }
 
@@ -247,6 +264,27 @@ mod tests {
             let (left, right) = (random_matrix(rows, inner), random_matrix(inner, columns));
             assert_eq!(product(&left, &right, &mut || true), Some(&left * &right));
         }
+    }
+
+    /// Of parts whose squares underflow beside the rest, as of a lever of no length: nalgebra's iteration goes on for ever.
+    #[test]
+    fn singular_values_of_any_numbers_come_to_an_end() {
+        for exponent in [-100, -160, -200, -310] {
+            let tiny = 10.0_f64.powi(exponent);
+            let matrix = random_matrix(6, 6)
+                .map_with_location(|row, column, entry| if row.min(column) > 2 { entry * tiny } else { 0.0 });
+            let matrix =
+                matrix + DMatrix::from_fn(6, 6, |row, column| f64::from(u8::from(row == column && row < 3)));
+            let found = singular_values(&matrix, [true; 2]).expect("it comes to an end");
+            let values = &found.singular_values;
+            assert_eq!(values.iter().filter(|value| (**value - 1.0).abs() < 1e-14).count(), 3, "{values}");
+            assert!(
+                values.iter().all(|value| *value >= 0.0 && (*value > 0.5 || *value < 10.0 * tiny)),
+                "{values}"
+            );
+        }
+        assert!(singular_values(&DMatrix::from_element(3, 3, f64::INFINITY), [true; 2]).is_none());
+        assert!(singular_values(&DMatrix::zeros(0, 3), [true; 2]).is_none());
     }
 
     #[test]

@@ -94,7 +94,7 @@ pub mod blocks;
 pub mod branches;
 pub mod certificate;
 mod combinations;
-mod dense;
+pub mod dense;
 mod enumeration;
 mod error_free;
 pub mod existence;

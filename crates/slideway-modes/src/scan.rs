@@ -13,10 +13,18 @@ pub const HALVINGS: i32 = 100;
 /// The most stretches of other answers that are sought between two neighbouring values.
 pub const BETWEEN: usize = 3;
 
-/// The ends of a range and evenly spaced values between them. Both ends are exact.
+/// The ends of a range and evenly spaced values between them, as far as there are so many numbers. Both ends are exact.
 pub fn evenly([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> + Clone {
-    (0..=steps)
-        .map(move |step| if step == steps { to } else { from + (to - from) * step as f64 / steps as f64 })
+    let at = move |step: usize| {
+        let (way, share) = ((to - from) * step as f64 / steps as f64, step as f64 / steps as f64);
+        match step {
+            _ if step == steps => to,
+            _ if way.is_finite() => from + way,
+            // The range is wider than the greatest number.
+            _ => from * (1.0 - share) + to * share,
+        }
+    };
+    (0..=steps).filter(move |&step| step == 0 || at(step) != at(step - 1)).map(at)
 }
 
 /// (sqrt(5) - 1) / 2, by which each step of a golden section search shrinks its bracket.
@@ -229,6 +237,11 @@ mod tests {
     fn ends_of_a_range_are_exact_and_runs_know_their_neighbours() {
         let values: Vec<f64> = evenly([0.1, 0.7], 3).collect();
         assert_eq!((values.len(), values[0], values[3]), (4, 0.1, 0.7));
+        assert_eq!(evenly([0.0, 1e-323], 500).collect::<Vec<_>>(), [0.0, 5e-324, 1e-323]);
+        assert_eq!(
+            evenly([-f64::MAX, f64::MAX], 4).collect::<Vec<_>>(),
+            [-1.0, -0.5, 0.0, 0.5, 1.0].map(|share| share * f64::MAX)
+        );
         let all = [1, 1, 2, 3, 3];
         let runs: Vec<_> = runs(&all, i32::eq).map(|run| (run.before, run.alike, run.after)).collect();
         assert_eq!(

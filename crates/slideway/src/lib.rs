@@ -106,6 +106,7 @@ pub use sweep::{Sweep, SweepOptions};
 pub use units::UnitSystem;
 
 pub use slideway_modes as modes;
+pub(crate) use slideway_modes::dense;
 pub use slideway_modes::{interval, printable, progress, scan};
 
 /// The examples of the README run.

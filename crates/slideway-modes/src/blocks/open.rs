@@ -80,7 +80,7 @@ fn label(problem: &BlockProblem, piece: &Piece, relaxed: &RelaxedPoint) -> OpenL
         OpenLabel::TooSmall
     } else {
         let slopes = matrix(problem, &piece.states, &slopes_at(problem, &point));
-        match singular_values(slopes).map(|found| found.singular_values) {
+        match singular_values(&slopes, [false; 2]).map(|found| found.singular_values) {
             Some(values) if values.min() <= SINGULAR_NEAR_FOLD * values.max() => OpenLabel::Fold,
             _ => OpenLabel::TooSmall,
         }
@@ -103,9 +103,10 @@ pub(super) fn point_of_continuum(problem: &BlockProblem, piece: &Piece) -> Optio
     let hinges = piece.sectors.iter().map(|sector| sector.disc().0).collect();
     let slopes = Slopes { contacts: vec![0.0; problem.contacts()], hinges };
     let middle: DMatrix<f64> = matrix(problem, &piece.states, &slopes);
-    let start = singular_values(middle)?.solve(&load(problem, &piece.states), CUT).ok()?;
+    let start = singular_values(&middle, [true; 2])?.solve(&load(problem, &piece.states), CUT).ok()?;
     let point = gauss_newton(problem, piece, start)?;
-    let decomposition = singular_values(matrix(problem, &piece.states, &slopes_at(problem, &point)))?;
+    let decomposition =
+        singular_values(&matrix(problem, &piece.states, &slopes_at(problem, &point)), [false, true])?;
     let values = &decomposition.singular_values;
     let (at, least) = values.argmin();
     if least > SINGULAR_ON_CURVE * values.max() {
@@ -127,7 +128,7 @@ fn gauss_newton(problem: &BlockProblem, piece: &Piece, start: DVector<f64>) -> O
             return Some(point);
         }
         let slopes: DMatrix<f64> = matrix(problem, &piece.states, &slopes_at(problem, &point));
-        let decomposition = singular_values(slopes)?;
+        let decomposition = singular_values(&slopes, [true; 2])?;
         let cut = CUT * decomposition.singular_values.max();
         point -= decomposition.solve(&error, cut).ok()?;
         if !point.amax().is_finite() {

@@ -19,6 +19,7 @@ use nalgebra::{DMatrix, DVector};
 use super::equations::{Piece, Slopes, matrix};
 use super::problem::BlockProblem;
 use super::sector::length;
+use crate::dense::singular_values;
 use crate::interval::Interval;
 use crate::interval_matrix::{IntervalMatrix, inner_product};
 use crate::problem::{ContactState, Side, column_slice, pressed_sides};
@@ -29,9 +30,6 @@ const LEAST: f64 = 1e-15;
 
 /// Equations are combined where all sectors have at most this half angle, in rad.
 const SMALL: f64 = 0.3;
-
-/// More steps than a singular value decomposition takes.
-const SVD_STEPS: usize = 1_000;
 
 /// A point of the relaxation.
 #[derive(Debug, Clone, PartialEq)]
@@ -197,7 +195,7 @@ fn divided(matrix: DMatrix<f64>, share: f64) -> Option<(DMatrix<f64>, DMatrix<f6
     if !size.is_normal() {
         return None;
     }
-    let svd = (matrix / size).try_svd(true, true, 4.0 * f64::EPSILON, SVD_STEPS)?;
+    let svd = singular_values(&(matrix / size), [true; 2])?;
     let cut = share * svd.singular_values.max();
     let small: Vec<usize> =
         (0..svd.singular_values.len()).filter(|&at| svd.singular_values[at] <= cut).collect();

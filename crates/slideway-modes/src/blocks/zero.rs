@@ -21,6 +21,9 @@ const NEAR: f64 = 1e-3;
 /// Relative radii of the boxes that are tried: a large one holds more slopes, a small one less rounding.
 const RADII: [f64; 11] = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12];
 
+/// How much larger a box about vanishing forces is than what rounding leaves of them; times the largest of [`RADII`].
+const ROOM: f64 = 1e4;
+
 /// A zero of the equations with the given states of contacts, continued linearly where a state is given.
 #[derive(Debug, Clone)]
 pub(super) struct Zero {
@@ -164,8 +167,9 @@ fn prove_while(
     let right = IntervalMatrix::from_intervals(&DMatrix::from_fn(point.len(), 1, |row, _| -residual[row]))?;
     // Bounds on the solutions of the linear equations for all values within the bounds: no smaller box proves anything.
     let inverse = inverse(matrix(problem, states, &slopes_at(problem, point)), proceed)?;
-    let sizes = sizes(problem, states, point);
-    let least = (inverse.abs() * residual.map(Interval::magnitude)).component_div(&sizes).max();
+    let bounds = inverse.abs() * residual.map(Interval::magnitude);
+    let sizes = sizes(problem, states, point, ROOM * bounds.amax());
+    let least = bounds.component_div(&sizes).max();
     RADII.iter().filter(|radius| **radius > least).find_map(|radius| {
         let isolation: Vec<Interval> =
             point.iter().zip(&sizes).map(|(&at, size)| Interval::around(at, radius * size)).collect();
@@ -207,11 +211,16 @@ fn is_share(states: &[Option<ContactState>], row: usize) -> bool {
     states.get(row) == Some(&Some(ContactState::Gap))
 }
 
-/// What the radii of boxes are shares of: the largest component of the forces, and of the share of a contact in its gap
-/// one.
-fn sizes(problem: &BlockProblem, states: &[Option<ContactState>], point: &DVector<f64>) -> DVector<f64> {
+/// What the radii of boxes are shares of: the largest component of the forces, or `least` where they vanish within rounding, and of
+/// the share of a contact in its gap one.
+fn sizes(
+    problem: &BlockProblem,
+    states: &[Option<ContactState>],
+    point: &DVector<f64>,
+    least: f64,
+) -> DVector<f64> {
     let forces = (0..problem.rows()).filter(|&row| !is_share(states, row)).map(|row| point[row].abs());
-    let largest = forces.fold(f64::MIN_POSITIVE, f64::max);
+    let largest = forces.fold(least.max(f64::MIN_POSITIVE), f64::max);
     DVector::from_fn(problem.rows(), |row, _| if is_share(states, row) { 1.0 } else { largest })
 }
 

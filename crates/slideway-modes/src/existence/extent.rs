@@ -9,6 +9,8 @@ use super::roots::{Reduced, Root};
 const SMALLEST_PIVOT: f64 = 1e-9;
 /// Fractions of the range that are tried as base points.
 const BASE_POINTS: [f64; 6] = [0.0, 0.381_966, 0.763_932, 0.145_898, 0.527_864, 0.909_83];
+/// How often a bracket is widened: from 1e-13 to 1e-3 of a distance by factors of 8.
+const FARTHER: i32 = 12;
 /// Places closer than this fraction of the range count as the same.
 const SAME_PLACE: f64 = 1e-14;
 
@@ -159,17 +161,13 @@ fn polish(reduced: &Reduced, end: &mut End, inside: f64) {
 
 /// The zero of a function close to `root`; `None` if it does not change sign there.
 fn bisect(root: f64, inside: f64, function: impl Fn(f64) -> f64) -> Option<f64> {
-    let mut reach = 1e-13 * (inside - root).abs().max(root.abs());
-    let (mut low, mut high) = loop {
-        let (low, high) = (root - reach, root + reach);
-        if function(low) * function(high) <= 0.0 {
-            break (low, high);
-        }
-        reach *= 8.0;
-        if reach > 1e-3 * (inside - root).abs() {
-            return None;
-        }
-    };
+    let way = (inside - root).abs();
+    let nearest = 1e-13 * way.max(root.abs());
+    let reaches = (0..FARTHER).map(|step| nearest * 8.0_f64.powi(step));
+    let mut brackets = reaches
+        .take_while(|reach| *reach <= nearest.max(1e-3 * way))
+        .map(|reach| (root - reach, root + reach));
+    let (mut low, mut high) = brackets.find(|&(low, high)| function(low) * function(high) <= 0.0)?;
     let sign = function(low);
     for _ in 0..60 {
         let middle = f64::midpoint(low, high);

@@ -132,7 +132,7 @@ impl<'a> Nearby<'a> {
         if present.is_empty() {
             return None;
         }
-        let factors = singular_values(matrix.clone())?;
+        let factors = singular_values(&matrix, [true; 2])?;
         let smallest = factors.singular_values.amax() * RELATIVE * signed.len() as f64;
         let load = self.problem.right_hand_side();
         let mut y = factors.solve(load, smallest).ok()?;

@@ -278,6 +278,9 @@ fn independent_pattern(
     order.sort_by_key(|&contact| choices[contact].len());
     let mut pattern: Vec<ContactState> =
         choices.iter().map(|states| states.first().copied()).collect::<Option<_>>()?;
+    if choices.iter().all(|states| states.len() == 1) {
+        return Some(pattern);
+    }
     let mut directions: Vec<DVector<f64>> = Vec::new();
     for contact in order {
         let mut best: Option<(f64, DVector<f64>)> = None;

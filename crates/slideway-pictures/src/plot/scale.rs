@@ -84,13 +84,10 @@ pub(super) fn ticks([from, to]: [f64; 2], step: f64) -> Vec<f64> {
     if !(first.is_finite() && last.is_finite() && last - first < 1000.0) {
         return Vec::new();
     }
-    let mut ticks = Vec::new();
-    let mut index = first;
-    while index <= last {
-        // Adding zero turns -0 into 0.
-        ticks.push(index * step + 0.0);
-        index += 1.0;
-    }
+    // Of a range far from zero beside its width, neighbouring multiples may be one number; adding zero turns -0 into 0.
+    let indices = (0..1000).map(|number| first + f64::from(number)).take_while(|index| *index <= last);
+    let mut ticks: Vec<f64> = indices.map(|index| index * step + 0.0).collect();
+    ticks.dedup();
     ticks
 }
 
@@ -197,6 +194,7 @@ mod tests {
             let found = tick_step(range, wanted);
             assert!((found - step).abs() < 1e-9 * step, "{range:?}: {found}");
         }
+        assert_eq!(ticks([1e16, 1e16 + 4.0], 0.5), [1e16, 1e16 + 2.0, 1e16 + 4.0]);
         assert_eq!(angle_step([-180.0, 180.0], 5), 60.0);
         assert_eq!(angle_step([-180.0, 180.0], 8), 45.0);
         assert_eq!(angle_step([60.0, 88.0], 8), 5.0);

@@ -3,12 +3,13 @@
 
 use super::joint_equations::JointEquations;
 use super::{Configuration, Pose};
+use crate::dense::singular_values;
 use crate::fault::FaultKind;
 use crate::ids::JointId;
 use crate::interval::Real;
 use crate::mechanism::{JointKind, Mechanism, rot90};
 use crate::model::SliderKind;
-use nalgebra::{DMatrix, DVector, SVD, Vector2};
+use nalgebra::{DMatrix, DVector, SymmetricEigen, Vector2};
 
 /// Singular values below this multiple of the greatest count as zero.
 pub(super) const RANK_TOLERANCE: f64 = 1e-9;
@@ -17,6 +18,8 @@ pub(super) const RANK_TOLERANCE: f64 = 1e-9;
 pub(crate) const PROBE: f64 = 1e-2;
 /// Kinetic energies below this multiple of the greatest count as none.
 const NO_INERTIA: f64 = 1e-12;
+/// Steps of the iteration for kinetic energies, for each motion: some two are usual.
+const STEPS_FOR_EACH: usize = 40;
 
 /// How a mechanism can move, and whether its reactions are determinate.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,18 +102,15 @@ impl Mobility {
 
 /// Number of singular values above this multiple of the greatest.
 pub(super) fn rank(matrix: &DMatrix<f64>, tolerance: f64) -> usize {
-    if matrix.is_empty() {
-        return 0;
-    }
-    let values = matrix.clone().singular_values();
-    let threshold = values.max() * tolerance;
-    values.iter().filter(|value| **value > threshold).count()
+    let Some(found) = singular_values(matrix, [false; 2]) else { return 0 };
+    let threshold = found.singular_values.max() * tolerance;
+    found.singular_values.iter().filter(|value| **value > threshold).count()
 }
 
 /// The least singular value as a part of the greatest.
 pub(super) fn regularity(matrix: &DMatrix<f64>) -> f64 {
-    let values = matrix.clone().singular_values();
-    values.min() / values.max()
+    singular_values(matrix, [false; 2])
+        .map_or(0.0, |found| found.singular_values.min() / found.singular_values.max())
 }
 
 /// An orthonormal basis of the vectors that `matrix` maps to zero, one in each column.
@@ -123,11 +123,12 @@ pub(super) fn null_space_within(matrix: &DMatrix<f64>, tolerance: f64) -> DMatri
     let columns = matrix.ncols();
     let mut square = DMatrix::zeros(matrix.nrows().max(columns), columns);
     square.rows_mut(0, matrix.nrows()).copy_from(matrix);
-    let svd = SVD::new(square, false, true);
-    let threshold = svd.singular_values.max() * tolerance;
-    let Some(v_t) = svd.v_t else { return DMatrix::zeros(columns, 0) };
+    let Some(mut found) = singular_values(&square, [false, true]) else { return DMatrix::zeros(columns, 0) };
+    found.sort_by_singular_values();
+    let threshold = found.singular_values.max() * tolerance;
+    let Some(v_t) = found.v_t else { return DMatrix::zeros(columns, 0) };
     let null: Vec<DVector<f64>> = (0..columns)
-        .filter(|&index| svd.singular_values[index] <= threshold)
+        .filter(|&index| found.singular_values[index] <= threshold)
         .map(|index| v_t.row(index).transpose())
         .collect();
     if null.is_empty() { DMatrix::zeros(columns, 0) } else { DMatrix::from_columns(&null) }
@@ -330,7 +331,8 @@ pub(crate) fn motions_without_inertia(
     if energy.is_empty() {
         return Vec::new();
     }
-    let eigen = energy.symmetric_eigen();
+    let steps = STEPS_FOR_EACH * motions.ncols();
+    let Some(eigen) = SymmetricEigen::try_new(energy, f64::EPSILON, steps) else { return Vec::new() };
     let greatest = eigen.eigenvalues.amax();
     let without = (0..motions.ncols()).filter(|&index| eigen.eigenvalues[index] <= NO_INERTIA * greatest);
     let in_words = |index: usize| {
@@ -363,7 +365,9 @@ fn close(mechanism: &Mechanism, poses: &mut [Pose]) {
 
 /// The vector of least norm that comes closest to solving `matrix` x = `right_hand_side`.
 pub(super) fn least_squares(matrix: &DMatrix<f64>, right_hand_side: &DVector<f64>) -> DVector<f64> {
-    let svd = matrix.clone().svd(true, true);
-    let threshold = svd.singular_values.max() * RANK_TOLERANCE;
-    svd.solve(right_hand_side, threshold).unwrap_or_else(|_| DVector::zeros(matrix.ncols()))
+    let solved = singular_values(matrix, [true; 2]).and_then(|found| {
+        let threshold = found.singular_values.max() * RANK_TOLERANCE;
+        found.solve(right_hand_side, threshold).ok()
+    });
+    solved.unwrap_or_else(|| DVector::zeros(matrix.ncols()))
 }

@@ -5,10 +5,12 @@ use super::peak::{SAME_ROW, peaks};
 use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
+use crate::ids::ContactId;
 use crate::limits::{Method, ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
+use crate::modes::ContactState;
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
-use crate::report::{Status, Verdict};
+use crate::report::{Status, Verdict, joints_in_words};
 use crate::scan::{bisect_until, evenly};
 use crate::solve::{Stages, pattern};
 use std::ops::ControlFlow;
@@ -46,9 +48,18 @@ pub(super) fn direction(
         evenly(range, STEPS).map(|value| (value, efforts(value))).collect();
     blow_ups.extend(poles((&places, efforts), range, &found));
     blow_ups.sort_by(|one, other| one.at.total_cmp(&other.at));
-    let course = Tabulated { varied, efforts: &efforts, range, found: &found, blow_ups: &blow_ups, work };
+    let naming = Naming::new(varied.model())?;
+    let course = Tabulated {
+        varied,
+        efforts: &efforts,
+        range,
+        found: &found,
+        blow_ups: &blow_ups,
+        naming: &naming,
+        work,
+    };
     let rows = course.rows(steps);
-    let modes = modes(&rows, &Naming::new(varied.model())?);
+    let modes = modes(&rows, &naming);
     let peaks = peaks(&places, (&found, &rows, &blow_ups), efforts);
     let without_mode_problem = RangeWithoutProblem::of(&found);
     let sampled = found.method == Method::Bracketing;
@@ -58,12 +69,15 @@ pub(super) fn direction(
     ))
 }
 
-/// The modes of rows, each once, in words.
+/// The modes of rows, each once, in words: those of a block that floats, where it does so in every row.
 pub(super) fn modes(rows: &[CourseRow], naming: &Naming) -> Vec<CourseMode> {
     let mut modes: Vec<CourseMode> = Vec::new();
     for pattern in rows.iter().filter_map(|row| row.pattern.as_ref()) {
         if modes.iter().all(|known| known.pattern != *pattern) {
-            modes.push(CourseMode { pattern: pattern.clone(), words: naming.in_words(pattern) });
+            let mut floating = rows.iter().filter(|row| row.pattern.as_ref() == Some(pattern));
+            let floating = floating.try_fold(String::new(), |_, row| row.floating.clone());
+            let words = floating.unwrap_or_else(|| naming.in_words(pattern));
+            modes.push(CourseMode { pattern: pattern.clone(), words });
         }
     }
     modes
@@ -141,6 +155,7 @@ struct Tabulated<'c> {
     range: [f64; 2],
     found: &'c ModesFound,
     blow_ups: &'c [BlowUp],
+    naming: &'c Naming,
     work: Work<'c>,
 }
 
@@ -180,7 +195,7 @@ impl Tabulated<'_> {
         {
             return rows_of(value, state::efforts(&report, &efforts.velocities));
         }
-        let row = |pattern: String, verdict: Verdict, of: Vec<f64>| {
+        let row = |pattern: String, verdict: Verdict, of: Vec<f64>, floating: Option<String>| {
             let (power, efficiency) = efforts.power(&of);
             CourseRow {
                 at: value,
@@ -192,18 +207,20 @@ impl Tabulated<'_> {
                 power: Some(power),
                 efficiency: Some(efficiency),
                 range: None,
+                floating,
             }
         };
         let state = StateAt::new(self.varied, value).ok();
         let of_mode = |mode: &ModeInterval| {
             let verdict = state.as_ref().map_or(Verdict::NotComputed, |state| state.verdict(&mode.pattern));
-            Some(row(pattern(&mode.pattern), verdict, efforts.of(&mode.pattern)?))
+            let floating = self.floating(&efforts, &mode.pattern);
+            Some(row(pattern(&mode.pattern), verdict, efforts.of(&mode.pattern)?, floating))
         };
         let pressed = present.into_iter().filter_map(of_mode);
         let between_faces = self.varied.states_between_faces(value, 1.0, None, self.work);
         let between_faces = between_faces.into_iter().map(|state| {
             let of_drives = state.drives.iter().map(|drive| drive.effort + 0.0).collect();
-            row(state.pattern, state.attainability.verdict, of_drives)
+            row(state.pattern, state.attainability.verdict, of_drives, None)
         });
         let rows: Vec<CourseRow> = pressed.chain(between_faces).collect();
         // Where modes end and others begin there is one state, which is on the boundary of each.
@@ -222,6 +239,16 @@ impl Tabulated<'_> {
             return vec![CourseRow { frictionless: Some(efforts.frictionless), ..nothing(value) }];
         }
         rows
+    }
+
+    /// The contact modes in words, if a block floats within its play: where contacts share no load, they are open.
+    fn floating(&self, efforts: &Efforts, mode: &[ContactState]) -> Option<String> {
+        let forces = efforts.normal_forces(mode)?;
+        let floats = |k: usize| efforts.mechanism.excess.shares(ContactId(k)) && forces[k] == 0.0;
+        let told = pattern(mode);
+        let told = told.chars().enumerate().map(|(k, sign)| if floats(k) { '0' } else { sign });
+        let told: String = told.collect();
+        (0..mode.len()).any(floats).then(|| self.naming.in_words(&told))
     }
 }
 
@@ -243,6 +270,7 @@ pub(super) fn rows_of(value: f64, all: AllEfforts) -> Vec<CourseRow> {
     let frictionless = Some(frictionless.efforts).filter(|_| !are_unknown);
     let row = |solution: DriveSolution| CourseRow {
         at: value,
+        floating: solution.floats.then(|| joints_in_words(&solution.joints)),
         pattern: Some(solution.pattern),
         attainability: Some(solution.attainability),
         grows: vec![0; solution.efforts.len()],
@@ -272,5 +300,6 @@ pub(super) fn nothing(value: f64) -> CourseRow {
         power: None,
         efficiency: None,
         range: None,
+        floating: None,
     }
 }

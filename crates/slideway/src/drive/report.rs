@@ -156,6 +156,9 @@ pub struct DriveSolution {
     pub power: f64,
     /// Against the same motion without friction.
     pub efficiency: Efficiency,
+    /// Whether a block floats within its play.
+    #[serde(skip)]
+    pub(super) floats: bool,
 }
 
 /// The efforts of infinitely many solutions.
@@ -316,7 +319,7 @@ pub struct CourseRow {
     pub efforts: Option<Vec<f64>>,
     /// 1 or -1 for each drive whose effort grows without bound there, else 0.
     pub grows: Vec<i8>,
-    /// Without friction; null where there is no position.
+    /// Without friction; null where there is no position, and where it is not known whether there is a solution.
     pub frictionless: Option<Vec<f64>>,
     /// Of all drives together (W).
     pub power: Option<f64>,
@@ -325,6 +328,9 @@ pub struct CourseRow {
     /// Where there are infinitely many solutions: between which values their efforts lie; absent elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub range: Option<EffortRange>,
+    /// The contact modes where a block floats within its play, which the pattern does not tell.
+    #[serde(skip)]
+    pub(super) floating: Option<String>,
 }
 
 /// A direction of motion.

@@ -70,7 +70,7 @@ pub(super) struct AllEfforts {
     pub(super) solutions: Vec<DriveSolution>,
     /// Those of infinitely many solutions, if they are known.
     pub(super) range: Option<EffortRange>,
-    /// Whether there are infinitely many solutions whose efforts are not known.
+    /// Whether there are infinitely many solutions whose efforts are not known, or it is not known whether there are any.
     pub(super) are_unknown: bool,
     pub(super) frictionless: Frictionless,
 }
@@ -84,6 +84,7 @@ pub(super) fn efforts(report: &SolveReport, velocities: &[f64]) -> AllEfforts {
             pattern: solution.pattern.clone(),
             preload_gap,
             joints: solution.joints.clone(),
+            floats: !solution.floating.is_empty(),
             attainability: solution.attainability.verdict,
             power: power(&efforts, velocities),
             efficiency: efficiency(&efforts, &frictionless, velocities),
@@ -95,7 +96,8 @@ pub(super) fn efforts(report: &SolveReport, velocities: &[f64]) -> AllEfforts {
     let range = effort_range(report, &frictionless, velocities);
     AllEfforts {
         solutions: pressed.chain(gaps).collect(),
-        are_unknown: report.status == Status::Continuum && range.is_none(),
+        are_unknown: report.status == Status::Unknown
+            || report.status == Status::Continuum && range.is_none(),
         range,
         frictionless: Frictionless { power: power(&frictionless, velocities), efforts: frictionless },
     }

@@ -288,7 +288,7 @@ impl Coefficients<'_> {
         for k in 0..contacts {
             let jumps = |row: usize| Side::BOTH.map(|side| influence.preload_friction(side, row, k));
             let jumps: Vec<[Interval; 2]> = (0..influence.frictionless.len()).map(jumps).collect();
-            if self.has_shared_jump(k) || self.may_be_shared(&jumps[..contacts]) {
+            if self.has_shared_jump(k) || self.may_be_shared(&jumps) {
                 for (right, [positive, negative]) in without.frictionless.iter_mut().zip(jumps) {
                     *right += positive.hull(negative);
                 }

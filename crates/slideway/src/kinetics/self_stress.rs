@@ -1,6 +1,7 @@
 //! Self-stresses of redundant guides from statics alone, so that no motion needs inertia.
 
 use super::{Assembled, INCONSISTENT, Reaction};
+use crate::dense::singular_values;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
@@ -28,8 +29,9 @@ impl Assembled<f64> {
         let of_kept = balance.select_columns(&kept);
         let of_cut = balance.select_columns(&cut);
         let greatest = of_kept.amax();
-        let answer = of_kept.clone().svd(true, true).solve(&-&of_cut, f64::EPSILON * greatest);
-        let answer = answer.expect("both factors were computed");
+        let found = singular_values(&of_kept, [true; 2]);
+        let answer = found.and_then(|found| found.solve(&-&of_cut, f64::EPSILON * greatest).ok());
+        let answer = answer.unwrap_or_else(|| DMatrix::zeros(kept.len(), cut.len()));
         let left = &of_kept * &answer + &of_cut;
         let lost = self.layout.cut.iter().zip(left.column_iter().zip(of_cut.column_iter()));
         let lost: Vec<ContactId> = lost

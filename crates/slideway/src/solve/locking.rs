@@ -8,6 +8,7 @@ use super::parts::contact_couples;
 use super::stages::Stages;
 use super::state::{pattern, signs, states};
 use crate::configuration::Configuration;
+use crate::dense::singular_values;
 use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem, Side};
 use crate::report::{JointMode, LockedMode, SolveReport, Status};
@@ -82,9 +83,9 @@ fn normal_forces(problem: &ModeProblem, mode: &[ContactState]) -> Option<DVector
     let size = |column: &DVector<f64>| Some(column.norm()).filter(|size| *size > 0.0).unwrap_or(1.0);
     let sizes: Vec<f64> = columns.iter().map(size).collect();
     let entry = |row: usize, k: usize| columns[k][row] / sizes[k];
-    let svd = DMatrix::from_fn(mode.len(), mode.len(), entry).try_svd(false, true, f64::EPSILON, 0)?;
-    let (last, _) = svd.singular_values.argmin();
-    let shares = svd.v_t?.row(last).transpose();
+    let found = singular_values(&DMatrix::from_fn(mode.len(), mode.len(), entry), [false, true])?;
+    let (last, _) = found.singular_values.argmin();
+    let shares = found.v_t?.row(last).transpose();
     let pressures = DVector::from_fn(mode.len(), |k, _| mode[k].sign().abs() * shares[k] / sizes[k]);
     let greatest = pressures[pressures.icamax()];
     // Contacts without force have none but for rounding.

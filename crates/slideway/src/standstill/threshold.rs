@@ -184,7 +184,7 @@ fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<O
         }
         is_released(&rough, &directions, work)
     };
-    let (mut below, mut above) = (from, from * (1.0 + NEAR));
+    let (mut below, mut above) = (from, (from * (1.0 + NEAR)).max(f64::MIN_POSITIVE));
     while slides(above) {
         (below, above) = (above, 2.0 * above);
         if above > GREATEST || work.is_over() {

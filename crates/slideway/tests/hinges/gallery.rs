@@ -194,6 +194,22 @@ fn the_quick_return_mechanism_needs_what_the_balances_say() {
     }
 }
 
+/// Without load massless links carry nothing, however they move: what is left of their forces is rounding, and they do not jam.
+#[test]
+fn links_without_load_need_no_effort() {
+    for (name, load) in [("quick-return", "Q"), ("toggle-press", "Q"), ("over-centre-clamp", "F")] {
+        let unloaded = model(name).with(&Settings::default().parameter(load, 0.0)).unwrap();
+        let report = solve(&unloaded).unwrap();
+        assert!(only(&report).drives[0].effort.abs() < 1e-9, "{name}");
+    }
+    let vary: slideway::Vary = "Q=0..600 N".parse().unwrap();
+    let report = drive(&model("quick-return"), &DriveOptions::default().vary(vary).rows(3)).unwrap();
+    for direction in &report.course.as_ref().unwrap().directions {
+        let efforts = direction.rows[0].efforts.as_ref().expect("it does not jam");
+        assert!(efforts[0].abs() < 1e-9 && direction.locked.is_empty(), "{direction:?}");
+    }
+}
+
 #[test]
 fn the_clamp_needs_what_the_balances_say_and_holds_before_its_centre() {
     let reference = reference();

@@ -1,6 +1,7 @@
 //! Motions that begin in a preload gap beside hinges with friction.
 
 use slideway::motion::{End, History, SimulateOptions, simulate};
+use slideway::report::Proof;
 use slideway::{Model, Settings, solve};
 
 const ONE_PIN: &str = include_str!("../findings/gap_motion_one_pin.toml");
@@ -48,4 +49,68 @@ fn a_motion_begins_in_a_gap_beside_three_pins() {
     let [gap] = report.preload_gap_states.as_slice() else { panic!("{}", report.preload_gap_states.len()) };
     let (mode, _) = begins(&model);
     assert!(mode.starts_with(&gap.patterns[0].replace(' ', "")), "{mode} {:?}", gap.patterns);
+}
+
+/// A sleeve that slides along an arm on a rough pin, its faces pressed against the guide by PLUS and MINUS.
+const SLEEVE: &str = r#"
+gravity = 9.81
+[points]
+p0 = [0, 0]
+p1 = [0.047048, -0.083335]
+[bodies.a]
+points = ["p0", "p1"]
+mass = 0.74344
+moment_of_inertia = 0.04906
+centre_of_mass = [0.1, 0.05]
+[bodies.s]
+points = []
+mass = 2.7076
+moment_of_inertia = 0.07753
+centre_of_mass = [0.28545, -0.17416]
+[joints.O]
+type = "hinge"
+between = ["a.p0", "ground.p0"]
+radius = 0.013849
+mu = 0.08
+[joints.j]
+type = "guided_slider"
+block = "s"
+guide = "a"
+at = [0.30276, -0.26142]
+along = -0.71225
+mu = 0.05
+length = 2
+height = 0
+preload = { plus = PLUS, minus = MINUS }
+preload_line = "centre"
+[loads.force]
+type = "force"
+at = "a.p1"
+components = [26.503, -6.0781]
+[coordinates.q]
+rotation = "a"
+rate = -3.7125
+[coordinates.s]
+slide = "j"
+rate = 1.4571
+[drives.d]
+coordinate = "q"
+acceleration = 0
+torque = { body = "a" }
+"#;
+
+/// The friction of unequal preloads is that of the face that is pressed, although it has no influence on that contact's own force.
+#[test]
+fn a_sleeve_beside_a_rough_pin_rubs_at_the_face_that_is_pressed() {
+    let effort = |plus: f64, minus: f64| {
+        let text = SLEEVE.replace("PLUS", &plus.to_string()).replace("MINUS", &minus.to_string());
+        let report = solve(&Model::parse(&text).unwrap()).unwrap();
+        assert_eq!((report.complete, report.solutions.len()), (Proof::Proven, 1), "{plus} {minus}");
+        let solution = &report.solutions[0];
+        assert_eq!(solution.signs, [-1]);
+        solution.drives[0].effort
+    };
+    let [unequal, as_pressed, as_other] = [effort(6.0, 4.0), effort(4.0, 4.0), effort(6.0, 6.0)];
+    assert!((unequal - as_pressed).abs() < 1e-12 * as_pressed.abs(), "{unequal} {as_pressed}");
+    assert!((unequal - as_other).abs() > 0.01 * as_other.abs(), "{unequal} {as_other}");
 }

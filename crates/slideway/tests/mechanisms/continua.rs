@@ -166,5 +166,7 @@ fn a_floating_carriage_has_one_state_in_every_question() {
     .replace("centre_of_mass = \"m\"", "centre_of_mass = \"m\"\npoints = [\"m\"]");
     let vary = DriveOptions::default().vary(Some("mu=0..1".parse().unwrap())).rows(3);
     let report = driven(&model(&driven_carriage), &vary);
-    assert_eq!(report.course.unwrap().directions[0].rows.len(), 3);
+    let course = &report.course.unwrap().directions[0];
+    let words: Vec<&str> = course.modes.iter().map(|mode| mode.words.as_str()).collect();
+    assert_eq!((course.rows.len(), words), (3, vec!["upper open; lower open"]));
 }

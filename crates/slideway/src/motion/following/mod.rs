@@ -12,7 +12,7 @@ use super::options::SimulateOptions;
 use super::record::history::History;
 use crate::configuration::{Configuration, Pose};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::mechanism::{FrictionCircle, Mechanism};
+use crate::mechanism::{FrictionCircle, MAGNITUDES, Mechanism};
 use crate::model::Model;
 use crate::progress::{Callback, Work, as_far_as_wanted};
 use crate::solve::never_turning;
@@ -90,10 +90,11 @@ fn check_tolerance(
 fn check(options: &SimulateOptions) -> Result<(), Faults> {
     let mut faults = Faults::default();
     let mut positive = |what: &'static str, value: f64| {
-        if !(value > 0.0 && value.is_finite()) {
+        if !MAGNITUDES.contains(&value) {
+            let wanted = if value > 0.0 { "from 1e-60 to 1e60" } else { "greater than zero" };
             faults.push(Fault::general(FaultKind::OutOfRange {
                 what: what.to_owned(),
-                wanted: "greater than zero",
+                wanted,
                 value: precise(value),
             }));
         }

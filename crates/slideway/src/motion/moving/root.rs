@@ -14,7 +14,8 @@ pub(in crate::motion) fn falling_root<E>(
     tolerance: f64,
     mut function: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
-    let tolerance = tolerance.max(2.0 * f64::EPSILON * left.abs().max(right.abs()));
+    let rounding = 2.0 * f64::EPSILON * left.abs().max(right.abs());
+    let tolerance = tolerance.max(rounding).max(f64::MIN_POSITIVE);
     let bisections = ((right - left) / (2.0 * tolerance)).log2().ceil().max(0.0);
     let slack = 0.2 / (right - left);
     let mut step = 0.0;

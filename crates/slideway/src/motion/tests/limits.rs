@@ -22,12 +22,22 @@ fn model(text: &str) -> Model {
 }
 
 #[test]
-fn durations_must_be_positive() {
-    for duration in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+fn durations_must_be_positive_and_of_a_size_that_can_be_computed_with() {
+    let positive = "the duration must be greater than zero";
+    let sized = "the duration must be from 1e-60 to 1e60";
+    for (duration, wanted) in [
+        (0.0, positive),
+        (-1.0, positive),
+        (f64::NAN, positive),
+        (f64::INFINITY, sized),
+        // Steps of such a duration vanish.
+        (1e-320, sized),
+        (1e300, sized),
+    ] {
         let faults =
             simulate(&model(&block("0.25", "rate = 2", "")), &SimulateOptions::new(duration)).unwrap_err();
         let told = faults.to_string();
-        assert!(told.starts_with("the duration must be greater than zero"), "{told}");
+        assert!(told.starts_with(wanted), "{told}");
     }
 }
 
