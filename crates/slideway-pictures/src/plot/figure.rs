@@ -164,6 +164,11 @@ pub enum PointKind {
 }
 
 impl PointKind {
+    /// As a legend has room for it.
+    pub(super) fn in_legend(self) -> Self {
+        if matches!(self, Self::Impact { .. }) { Self::Impact { percent: 30 } } else { self }
+    }
+
     /// For the legend.
     pub(super) fn words(self) -> &'static str {
         match self {

@@ -74,8 +74,7 @@ impl Legend {
         }
         let mut kinds: Vec<PointKind> = panel.points.iter().map(|point| point.kind).collect();
         kinds.sort_unstable();
-        // Of several rings the greatest.
-        kinds.into_iter().rev().for_each(|kind| legend.add(LegendSample::Point(kind), kind.words()));
+        kinds.into_iter().for_each(|kind| legend.add(LegendSample::Point(kind.in_legend()), kind.words()));
         if let Some(words) = layout.cut() {
             legend.add(LegendSample::Cut, &words);
         }
