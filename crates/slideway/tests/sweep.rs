@@ -384,6 +384,56 @@ fn attainability_is_that_of_the_theory() {
     }
 }
 
+/// Friction in hinges beside contacts that may lift off is refused at each point, also behind one at which there is none.
+#[test]
+fn what_solve_refuses_a_sweep_does_too() {
+    let text = r#"
+        gravity = "9.81 m/s^2"
+        [points]
+        P = [0, 0]
+        C = ["-0.3 m", "0.4 m"]
+        Q = ["-0.6 m", "0.8 m"]
+        E = ["-0.6 m", "1 m"]
+        [bodies.rod]
+        points = ["P", "C", "Q"]
+        mass = "1 kg"
+        centre_of_mass = "C"
+        moment_of_inertia = "1 kg m^2"
+        [bodies.bob]
+        points = ["Q", "E"]
+        mass = "1 kg"
+        centre_of_mass = "E"
+        moment_of_inertia = "0.1 kg m^2"
+        [joints.pin]
+        type = "hinge"
+        between = ["rod.Q", "bob.Q"]
+        mu = 0.1
+        radius = "10 mm"
+        [joints.tip]
+        type = "corner_on_face"
+        block = "rod"
+        at = "P"
+        along = "0 deg"
+        mu = 0.3
+        [coordinates.x]
+        slide = "tip"
+        rate = "1 m/s"
+        [coordinates.turn]
+        rotation = "rod"
+        rate = "1 rad/s"
+        [coordinates.bob]
+        rotation = "bob"
+        rate = "2 rad/s"
+    "#;
+    let model = Model::parse(text).unwrap();
+    assert!(solve(&model).is_err());
+    let sweep = Sweep::new(&model, &grid(&["friction=0..1:3"])).unwrap();
+    let mut state = sweep.start();
+    sweep.run(&mut state, &Rows::clone, &mut |_, _| ControlFlow::Continue(()));
+    let tally = &state.tally;
+    assert_eq!((tally.with_status(PointStatus::One), tally.with_status(PointStatus::Refused)), (1, 2));
+}
+
 /// Values from which a negative coefficient is computed refuse their points, not the sweep; all others are
 /// computed.
 #[test]
