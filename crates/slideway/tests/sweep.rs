@@ -427,10 +427,7 @@ fn what_solve_refuses_a_sweep_does_too() {
     "#;
     let model = Model::parse(text).unwrap();
     assert!(solve(&model).is_err());
-    let sweep = Sweep::new(&model, &grid(&["friction=0..1:3"])).unwrap();
-    let mut state = sweep.start();
-    sweep.run(&mut state, &Rows::clone, &mut |_, _| ControlFlow::Continue(()));
-    let tally = &state.tally;
+    let tally = Sweep::new(&model, &grid(&["friction=0..1:3"])).unwrap().tally();
     assert_eq!((tally.with_status(PointStatus::One), tally.with_status(PointStatus::Refused)), (1, 2));
 }
 
