@@ -1,11 +1,11 @@
-//! Influence coefficients of a mechanism, from which [`InfluenceCoefficients`](crate::modes::InfluenceCoefficients) makes the
+//! Influence coefficients of a mechanism, from which [`InfluenceCoefficients`] makes the
 //! numbers of its problem: the same code for rounded ones and for bounds.
 
 use crate::ids::JointId;
 use crate::interval::Real;
 use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::SliderKind;
-use crate::modes::BySide;
+use crate::modes::{BySide, InfluenceCoefficients};
 use nalgebra::{DMatrix, DVector};
 
 /// Versions of an influence column that differ by less than this multiple of it are the same.
@@ -29,6 +29,29 @@ impl TurningHinge {
     pub(crate) fn leverage<T: Real>(&self, circle: &FrictionCircle<T>) -> T {
         -circle.radius * T::exactly(self.sense)
     }
+}
+
+/// With all coefficients of friction multiplied by a factor, those of these turning hinges as their circles have it, and the
+/// radii that are given.
+pub(crate) fn rougher<T: Real>(
+    coefficients: &InfluenceCoefficients<T>,
+    hinges: &[(TurningHinge, FrictionCircle<T>)],
+    factor: T,
+) -> InfluenceCoefficients<T> {
+    let mut rougher = coefficients.clone();
+    rougher.mu = coefficients.mu.map(|mu| mu.map(|mu| mu * factor));
+    for ((_, leverage), (hinge, circle)) in rougher.turning.iter_mut().zip(hinges) {
+        *leverage = hinge.leverage(&circle.times(factor));
+    }
+    rougher
+}
+
+/// These hinges with their friction circles.
+pub(crate) fn with_circles<T: Real>(
+    hinges: &[TurningHinge],
+    mechanism: &Mechanism<T>,
+) -> Vec<(TurningHinge, FrictionCircle<T>)> {
+    hinges.iter().map(|hinge| (*hinge, mechanism.friction_circles[hinge.circle])).collect()
 }
 
 /// The friction coefficients and the preloads of contacts, zero where they have no part.

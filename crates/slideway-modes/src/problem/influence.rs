@@ -134,15 +134,6 @@ impl<T: Real> InfluenceCoefficients<T> {
         }
     }
 
-    /// With all friction multiplied by a factor, but for that of preloads.
-    #[must_use]
-    pub fn rougher(&self, factor: T) -> Self {
-        let mut rougher = self.clone();
-        rougher.mu = self.mu.map(|mu| mu.map(|mu| mu * factor));
-        rougher.turning.iter_mut().for_each(|(_, leverage)| *leverage *= factor);
-        rougher
-    }
-
     fn sides(&self, entry: fn(&Self, Side, usize, usize) -> T) -> BySide<DMatrix<T>> {
         let (rows, contacts) = (self.frictionless.len(), self.contacts());
         BySide::of(|side| DMatrix::from_fn(rows, contacts, |row, k| entry(self, side, row, k)))

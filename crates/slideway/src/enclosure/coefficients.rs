@@ -64,7 +64,7 @@ impl Coefficients<'_> {
     }
 
     /// Bounds of the influence coefficients of the contacts and hinges, from the rows of all answers: first those of so many
-    /// forces, of which rounding is this part, then those of the couples of guided sliders, and of other outputs.
+    /// forces, whose scale this is, then those of the couples of guided sliders, and of other outputs.
     fn influence(
         &self,
         answers: &DMatrix<Interval>,

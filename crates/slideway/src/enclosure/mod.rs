@@ -38,14 +38,14 @@ use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
 use crate::interval::Interval;
 use crate::kinetics::Assembled;
-use crate::mechanism::{Coordinate, Mechanism};
+use crate::mechanism::{Coordinate, FrictionCircle, Mechanism};
 use crate::model::Model;
 use crate::modes::blocks::BlockProblem;
 use crate::modes::certificate::{
     IntervalMatrix, IntervalModeProblem, IntervalModeProblemError, enclose_solution_while,
 };
 use crate::modes::{InfluenceCoefficients, OpenContacts};
-use crate::problem::TurningHinge;
+use crate::problem::{TurningHinge, with_circles};
 use crate::progress::{Callback, Progress, Work, undisturbed, watched};
 use coefficients::Coefficients;
 use nalgebra::DMatrix;
@@ -152,6 +152,8 @@ pub struct Enclosed<P> {
     pub(crate) open: OpenContacts,
     /// The coefficients of its numbers.
     pub(crate) coefficients: InfluenceCoefficients<Interval>,
+    /// The hinges that turn with friction.
+    pub(crate) hinges: Vec<(TurningHinge, FrictionCircle<Interval>)>,
 }
 
 /// The mode problem of contacts, within bounds.
@@ -321,8 +323,9 @@ fn enclosed<P>(
     let rubbing = within.rubbing(hinges)?;
     let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
     let (coefficients, outputs) = within.problem(&unknowns, hinges, &rubbing)?;
+    let hinges = with_circles(hinges, &mechanism);
     let open = mechanism.excess.open.clone();
-    Ok(Enclosed { problem: make(&coefficients)?, outputs, open, coefficients })
+    Ok(Enclosed { problem: make(&coefficients)?, outputs, open, coefficients, hinges })
 }
 
 /// Bounds of the solutions of a linear system; none if it is not proven to be regular, or once the work is to end.

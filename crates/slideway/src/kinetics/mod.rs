@@ -327,7 +327,7 @@ impl KineticEquations {
         let mut forces = DVector::zeros(self.load.len());
         let builder = Builder { mechanism, configuration, layout: &self.layout };
         for wrench in &load_wrenches(mechanism, configuration, load)? {
-            wrench.add_to(&builder.configuration, |row, value| forces[row] += value);
+            wrench.add_to(builder.configuration, |row, value| forces[row] += value);
         }
         Ok(self.without_noise(&self.factorization.solve(&[&forces])[0]))
     }
@@ -539,7 +539,7 @@ impl<T: Real> Builder<'_, T> {
                 matrix[(effort, column)] += value;
             }
             for wrench in loads::unit_effort(self.mechanism, self.configuration, &drive.effort) {
-                wrench.add_to(&self.configuration, |row, value| matrix[(row, effort)] -= value);
+                wrench.add_to(self.configuration, |row, value| matrix[(row, effort)] -= value);
             }
         }
         matrix
@@ -568,7 +568,7 @@ impl<T: Real> Builder<'_, T> {
     ) -> Result<DVector<T>, Faults> {
         let mut load = DVector::zeros(self.layout.len());
         for wrench in applied {
-            wrench.add_to(&self.configuration, |row, value| load[row] += value);
+            wrench.add_to(self.configuration, |row, value| load[row] += value);
         }
         let first = 3 * self.mechanism.bodies.len();
         for (index, row) in constraints.iter().enumerate() {
@@ -593,7 +593,7 @@ impl<T: Real> Builder<'_, T> {
         [T::one(), -T::one()].map(|sign| {
             let mut column = DVector::zeros(self.layout.len());
             for wrench in friction_forces(self.mechanism, id, contact, sign, T::one()) {
-                wrench.add_to(&self.configuration, |row, value| column[row] += value);
+                wrench.add_to(self.configuration, |row, value| column[row] += value);
             }
             column
         })
@@ -603,7 +603,7 @@ impl<T: Real> Builder<'_, T> {
     fn friction_couple(&self, joint: JointId) -> DVector<T> {
         let mut column = DVector::zeros(self.layout.len());
         for wrench in self.mechanism.friction_couple(joint, T::one()) {
-            wrench.add_to(&self.configuration, |row, value| column[row] += value);
+            wrench.add_to(self.configuration, |row, value| column[row] += value);
         }
         column
     }

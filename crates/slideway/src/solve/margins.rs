@@ -13,6 +13,7 @@ use crate::modes::existence::{
     is_same_end, nothing_is_left,
 };
 use crate::modes::{ContactState, InfluenceCoefficients, ModeProblem};
+use crate::problem::rougher;
 use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, Unlocking};
 
 /// The most patterns for which margins are computed.
@@ -114,7 +115,7 @@ fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProble
 /// The factor at which a determinant along a line is proven to change its sign, with bounds of the same numbers.
 fn first_locking(line: &ModeProblemLine, enclosed: &InfluenceCoefficients<Interval>) -> Option<f64> {
     let sign_at = |factor: f64, pattern: &[ContactState]| {
-        let rougher = enclosed.rougher(Interval::point(factor));
+        let rougher = rougher(enclosed, &[], Interval::point(factor));
         proven_determinant_sign(&IntervalModeProblem::from_influence(&rougher).ok()?, pattern)
     };
     line.first_locking(PATTERNS, &sign_at).ok()?.map(|(factor, _)| factor)

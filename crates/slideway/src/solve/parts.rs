@@ -13,6 +13,7 @@ use crate::mechanism::Mechanism;
 use crate::model::SliderKind;
 use crate::modes::existence::{ModeProblemLine, OutputBound};
 use crate::modes::{BySide, ContactState, ModeProblem, ModeProblemError, OpenContacts};
+use crate::problem::rougher;
 use crate::progress::Callback;
 use nalgebra::{DMatrix, DVector};
 
@@ -53,7 +54,7 @@ impl Parts {
         let coefficients = data.coefficients(&[], &outputs)?;
         let mut parts = Self {
             columns: coefficients.columns(),
-            frictionless: coefficients.rougher(0.0).columns(),
+            frictionless: rougher(&coefficients, &[], 0.0).columns(),
             jumps: coefficients.jumps(),
             right_hand_side: coefficients.right_hand_side(),
             bounds,

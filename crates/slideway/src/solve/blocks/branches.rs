@@ -8,10 +8,11 @@ use super::spin::{does_not_turn, senses};
 use super::states::hinge_states;
 use crate::fault::Faults;
 use crate::kinetics::ConstraintRow;
+use crate::mechanism::FrictionCircle;
 use crate::modes::branches::{BranchForces, Instance};
 use crate::modes::existence::OutputBound;
 use crate::modes::{ContactState, InfluenceCoefficients};
-use crate::problem::TurningHinge;
+use crate::problem::{TurningHinge, rougher, with_circles};
 use nalgebra::DVector;
 
 /// The hinges of these friction circles, with the sense in which each turns; one that has no friction here may stand.
@@ -47,6 +48,7 @@ pub(crate) fn block_instance(stages: &Stages, hinges: &[TurningHinge]) -> Result
 pub(crate) struct GrowingFriction {
     /// With the couples of guided sliders as outputs.
     coefficients: InfluenceCoefficients,
+    hinges: Vec<(TurningHinge, FrictionCircle)>,
     bounds: Vec<OutputBound>,
     senses: Vec<i8>,
 }
@@ -61,7 +63,9 @@ impl GrowingFriction {
         let sense = |sign: f64| i8::from(sign > 0.0) - i8::from(sign < 0.0);
         let senses = stages.velocity_signs.iter().copied().chain(turning).map(sense).collect();
         let rows: Vec<ConstraintRow> = rows.into_iter().map(ConstraintRow::unknown).collect();
-        Ok(Self { coefficients: stages.data().coefficients(hinges, &rows)?, bounds, senses })
+        let coefficients = stages.data().coefficients(hinges, &rows)?;
+        let hinges = with_circles(hinges, &stages.mechanism);
+        Ok(Self { coefficients, hinges, bounds, senses })
     }
 
     /// With this factor.
@@ -69,7 +73,7 @@ impl GrowingFriction {
     /// # Errors
     /// Numbers beyond the range of floating point.
     pub(crate) fn at(&self, factor: f64) -> Result<Instance, Faults> {
-        let numbers = self.coefficients.rougher(factor).numbers();
+        let numbers = rougher(&self.coefficients, &self.hinges, factor).numbers();
         let unknowns = numbers.load.len() - self.bounds.len();
         if !numbers.are_finite() {
             return Err(overflow());

@@ -12,7 +12,7 @@ use crate::modes::SearchOptions;
 use crate::modes::blocks::{self, BlockProblem, BlockSolution, UniqueForEveryLoad, unique_for_every_load};
 use crate::modes::branches::{BranchOptions, Instance, NoInstance, branches, end_of, keeps_bounds};
 use crate::modes::existence::{EndCause, ModeEnd};
-use crate::problem::TurningHinge;
+use crate::problem::{TurningHinge, rougher};
 use crate::progress::Work;
 use crate::report::{ModeMargin, Proof};
 
@@ -150,7 +150,8 @@ impl<'a> Growth<'a> {
     /// mechanism; none if it is not proven. What proves it grows with friction, so that it holds below, too.
     pub(super) fn unique_at_least(&self, enclosed: &EnclosedBlockProblem) -> Option<f64> {
         let factor = self.unique_until()?;
-        let rougher = enclosed.coefficients.rougher(Interval::point(factor)).numbers().problem()?;
+        let rougher = rougher(&enclosed.coefficients, &enclosed.hinges, Interval::point(factor));
+        let rougher = rougher.numbers().problem()?;
         self.unique_as_friction_grows(&rougher).then_some(factor)
     }
 
