@@ -119,8 +119,8 @@ impl Mechanism {
         found
     }
 
-    /// Corners, ends and rims of a body as it is drawn: centres and radii (m). Where it has neither outline nor shape, those of its
-    /// points count that are not between others.
+    /// Corners, ends and rims of a body as it is drawn: centres and radii (m). Where it has neither outline nor shape, those of
+    /// its points count that are not between others.
     fn extremes(&self, id: BodyId) -> Vec<(Vector2<f64>, f64)> {
         let body = &self.bodies[id.index()];
         let sharp = |place| (place, 0.0);

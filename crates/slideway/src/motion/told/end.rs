@@ -32,7 +32,8 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             mechanism.contacts[id.index()].name
         ),
         End::BareCorner { wanted } => format!(
-            "It ends at {time}: {}, where the model has no contact. Add a `{wanted}` there, with its `face` and `closed = false`.",
+            "It ends at {time}: {}, where the model has no contact. Add a `{wanted}` there, with its `face` and \
+             `closed = false`.",
             last_words(history)
         ),
         End::ReactionLimit(id) => format!(
