@@ -45,7 +45,9 @@ fn a_drawer_moves_or_jams() {
 #[test]
 fn several_solutions_are_so_many_ways() {
     assert!(
-        answer(&model("klepp-2002")).starts_with("3 solutions: from this state it can go on in 2 ways. The other state is unstable. ")
+        answer(&model("klepp-2002")).starts_with(
+            "3 solutions: from this state it can go on in 2 ways. The other state is unstable. "
+        )
     );
     let text = solve(&model("klepp-2002")).expect("an answer").text(Style::PLAIN);
     assert!(

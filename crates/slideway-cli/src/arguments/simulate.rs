@@ -55,7 +55,7 @@ pub(crate) struct SimulateArguments {
     #[arg(long, value_enum, default_value_t, value_name = "WHICH")]
     pub(crate) prefer: Preference,
 
-    /// What friction does in impacts on the faces of contacts that may lift off.
+    /// The law of friction in impacts on the faces of contacts that may lift off.
     #[arg(long, default_value = ImpactLaw::default().word(), value_parser = choice::<ImpactLaw>(), value_name = "LAW")]
     pub(crate) impacts: ImpactLaw,
 

@@ -172,15 +172,21 @@ fn impacts(history: &History) -> Vec<(f64, PointKind)> {
     let all: Vec<(f64, f64)> =
         events.filter_map(|event| Some((event.time, event.causes.iter().filter_map(lost).next()?))).collect();
     let greatest = all.iter().map(|(_, lost)| *lost).fold(0.0, f64::max);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 100, and saturating")]
-    let ring = |&(time, lost): &(f64, f64)| (time, PointKind::Impact { percent: (100.0 * lost / greatest) as u8 });
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "at most 100, and saturating"
+    )]
+    let ring =
+        |&(time, lost): &(f64, f64)| (time, PointKind::Impact { percent: (100.0 * lost / greatest) as u8 });
     all.iter().map(ring).collect()
 }
 
 /// Returns the changes that impulses make in the portrait of a coordinate, as curves from the end of one
 /// piece to the beginning of the next, where they can be seen.
 fn jumps(history: &History, curves: &[Curve], branch: usize) -> Vec<Curve> {
-    let is_impulse = |cause: &Cause| matches!(cause, Cause::Jams { .. } | Cause::Hits { .. } | Cause::Lands { .. });
+    let is_impulse =
+        |cause: &Cause| matches!(cause, Cause::Jams { .. } | Cause::Hits { .. } | Cause::Lands { .. });
     let [_, least] = point_size(curves);
     let groups = groups(history);
     let pairs = curves.windows(2).zip(&groups);
@@ -381,7 +387,8 @@ impl Builder<'_> {
         let mut panel = self.panel("Gaps", ("gap", "m"), &gaps);
         let seconds = self.units.of("s");
         let rings = impacts(history).into_iter();
-        panel.points = rings.map(|(time, kind)| MarkedPoint { at: [seconds.number_of(time), 0.0], kind }).collect();
+        panel.points =
+            rings.map(|(time, kind)| MarkedPoint { at: [seconds.number_of(time), 0.0], kind }).collect();
         Some(panel)
     }
 

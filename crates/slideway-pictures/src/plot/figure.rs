@@ -158,7 +158,7 @@ pub enum PointKind {
     Model,
     /// An impact: a ring whose area is the energy that it takes.
     Impact {
-        /// That energy, in percent of the greatest of the motion.
+        /// The energy in percent of the greatest of the motion.
         percent: u8,
     },
 }

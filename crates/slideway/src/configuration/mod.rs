@@ -238,10 +238,10 @@ impl<T: Real> Configuration<T> {
         (tangent.dot(&(block - guide)), tangent.dot(&relative))
     }
 
-    /// How far the rim of a disc has slipped on its face since the drawing (m): `u . (block - guide) + R (theta_B - theta_A)`, and
-    /// on a round face `(R_B + R_A) (psi_B - psi)`, where `psi_B = (R_B theta_B + R_A theta_A)/(R_B + R_A)` is the turn of the line
-    /// between both centres if it rolls, `psi` that line's turn, with a negative `R_A` of a hole. That is known up to whole
-    /// turns: the second number.
+    /// The way that the rim of a disc has slipped on its face since the drawing (m): `u . (block - guide) + R (theta_B -
+    /// theta_A)`, and on a round face `(R_B + R_A) (psi_B - psi)`, where `psi_B = (R_B theta_B + R_A theta_A)/(R_B + R_A)` is the
+    /// turn of the line between both centres if it rolls, `psi` that line's turn, with a negative `R_A` of a hole. This is known
+    /// up to whole turns: the second number.
     pub(crate) fn slipped(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> (T, Option<T>) {
         let Some(round) = &slider.round else {
             let turned = self.angle(slider.block) - self.angle(slider.guide);

@@ -17,7 +17,7 @@ pub(crate) struct BareCorner {
     pub(crate) name: String,
     /// The joint whose face it is.
     pub(crate) joint: JointId,
-    /// What the joint would be there ...
+    /// The joint that would be there ...
     pub(crate) slider: Slider,
     /// ... and its contact, which is apart from the face in the drawing.
     pub(crate) contact: Contact,
@@ -160,7 +160,7 @@ impl Mechanism {
             }
     }
 
-    /// How far the place of a joint is from its straight face in the drawing (m).
+    /// The distance of the place of a joint from its straight face in the drawing (m).
     fn off_face(&self, slider: &Slider) -> f64 {
         slider.rim() + self.all_of(slider).next().map_or(0.0, |contact| contact.gap)
     }

@@ -39,17 +39,17 @@ pub struct SimulateOptions {
     /// Whether at a branching behind the list the phase is taken in which the fewest joints stick, instead of
     /// the first: what could wedge itself at rest then slides on as long as it can.
     pub prefers_sliding: bool,
-    /// What friction does in impacts on faces.
+    /// The law of friction in impacts on faces.
     pub impacts: ImpactLaw,
 }
 
-/// What friction does in an impact on a face.
+/// The law of friction in impacts on faces.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum ImpactLaw {
-    /// It opposes the slip at each moment of the course of the impact (E. J. Routh, Dynamics of a System of Rigid Bodies, Elementary
-    /// Part, chapter IV).
+    /// It opposes the slip at each moment of the course of the impact (E. J. Routh, Dynamics of a System of Rigid
+    /// Bodies, Elementary Part, chapter IV).
     #[default]
     Course,
     /// It opposes the slip after the impact (J. J. Moreau, Unilateral contact and dry friction in finite freedom dynamics, 1988).
@@ -59,7 +59,11 @@ pub enum ImpactLaw {
 impl Choice for ImpactLaw {
     const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Course, "course", "Friction opposes the slip at each moment of the impact"),
-        (Self::Moreau, "moreau", "Friction opposes the slip after the impact, as Siconos and much of the literature have it"),
+        (
+            Self::Moreau,
+            "moreau",
+            "Friction opposes the slip after the impact, as Siconos and much of the literature have it",
+        ),
     ];
 }
 

@@ -61,8 +61,7 @@ fn examine<T>(
         return Err(STICKS);
     }
     let rolls = |joint: &usize| {
-        sticks(*joint)
-            && instant.mechanism.slider(instant.joints[*joint].id).is_some_and(Slider::is_disc)
+        sticks(*joint) && instant.mechanism.slider(instant.joints[*joint].id).is_some_and(Slider::is_disc)
     };
     if (0..phase.joints.len()).any(|joint| rolls(&joint)) {
         return Err(ROLLS);

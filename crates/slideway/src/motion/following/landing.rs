@@ -30,7 +30,8 @@ impl Run<'_, '_> {
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let configuration = self.smooth.equations.configuration.clone();
         let mechanism = self.smooth.equations.mechanism;
-        let Landing { after, energy_lost } = landing(mechanism, &configuration, self.options.impacts, self.work)?;
+        let Landing { after, energy_lost } =
+            landing(mechanism, &configuration, self.options.impacts, self.work)?;
         self.smooth.set_velocities(&after.velocities);
         self.note_impulse(energy_lost);
         causes.retain(|cause| !matches!(cause, Cause::Touches(_) | Cause::Stops(_)));

@@ -62,7 +62,7 @@ pub(in crate::motion) enum Watched {
     Overlap(JointId),
     /// The gap of a contact that is open.
     Gap(ContactId),
-    /// How far a corner without contact is from a face, by its number among these.
+    /// Distance of a corner without contact from a face, by its number among these.
     BareCorner(usize),
     /// Distance to the least (-1) or greatest (1) displacement of a sliding joint.
     Travel(JointId, f64),
@@ -220,7 +220,7 @@ impl<'o> Watch<'o> {
         }
     }
 
-    /// That a corner without contact reaches a face, unless it passes beyond the ends.
+    /// Returns that a corner without contact reaches a face, unless it passes beyond the ends.
     pub(in crate::motion) fn bare_corner(&self, index: usize, equations: &Equations<'_>) -> Option<Cause> {
         let corner = &self.bare[index];
         let reaches = !equations.is_beside_face(&corner.slider, &corner.contact);

@@ -4,13 +4,13 @@
 //! pushes   N_i' >= 0, the rate of its gap goes to its end         is left   N_i = 0, the rate of its gap ends there or above
 //! ```
 //!
-//! Where a contact has closed with the velocity `u`, the rate of its gap ends at `e u` with its coefficient of restitution `e`, else
-//! at zero. Each set of contacts that are left is tried, with the mechanism as it touches without them. The contacts that push
-//! are rows of it, and the rates of their gaps go to their ends in proportion; what belongs to that without friction stands in the
-//! place of the loads, and friction is that of [`impulses`](super::super::impulse). This lasts until something that slides stops, and
-//! is then decided anew. Where pushing makes gaps close faster, since friction turns it round, that goes on until something
-//! stops. A contact that would leave for a flight which rounding of places hides has come to rest: the rate of its gap goes to
-//! zero, too.
+//! Where a contact has closed with the velocity `u`, the rate of its gap ends at `e u` with its coefficient of restitution
+//! `e`, else at zero. Each set of contacts that are left is tried, with the mechanism as it touches without them. The contacts
+//! that push are rows of it, and the rates of their gaps go to their ends in proportion; what belongs to that without friction
+//! stands in the place of the loads, and friction is that of [`impulses`](super::super::impulse). This lasts until something
+//! that slides stops, and is then decided anew. Where pushing makes gaps close faster, since friction turns it round, that goes
+//! on until something stops. A contact that would leave for a flight which rounding of places hides has come to rest: the rate
+//! of its gap goes to zero, too.
 //!
 //! By Moreau's law friction opposes the slip after the impact in place of that at each moment: then an impact is one such part,
 //! with velocities afterwards in the place of their changes, and all its outcomes are found.
@@ -57,8 +57,7 @@ pub(in crate::motion) fn landing(
     let mut impact = Impact { mechanism, before: configuration, resting: Vec::new(), part: 1.0, law, work };
     loop {
         let after = impact.outcome()?;
-        let rests =
-            |(k, rate): &(usize, f64)| !impact.resting.contains(k) && *rate > 0.0 && *rate <= least;
+        let rests = |(k, rate): &(usize, f64)| !impact.resting.contains(k) && *rate > 0.0 && *rate <= least;
         let further: Vec<usize> =
             rates(mechanism, &after).into_iter().filter(rests).map(|(k, _)| k).collect();
         if further.is_empty() {
@@ -94,18 +93,18 @@ struct Touch {
     contact: usize,
     /// The rate of its gap (m/s).
     rate: f64,
-    /// That with which the impact is over for it (m/s).
+    /// The rate with which the impact is over for it (m/s).
     end: f64,
 }
 
 /// The course of an impact until all gaps have the rates of its end.
 struct Course {
     after: Configuration,
-    /// What the contacts have returned of the work that they have taken, less that work (J).
+    /// The work that the contacts have returned, less what they have taken (J).
     returned: f64,
 }
 
-/// How velocities change until the rates of all gaps that are pushed have their ends, or something stops.
+/// A change of velocities until the rates of all gaps that are pushed have their ends, or something stops.
 struct Part {
     /// The jumps of all velocities of the bodies.
     jumps: DVector<f64>,
@@ -116,7 +115,7 @@ struct Part {
     length: f64,
 }
 
-/// What a contact does that pushes.
+/// A contact that pushes.
 struct Push {
     contact: usize,
     /// Its normal impulse (N s).
@@ -175,7 +174,8 @@ impl Impact<'_> {
     /// The course of the impact.
     fn course(&self) -> Result<Course, Faults> {
         let mut course = Course { after: self.before.clone(), returned: 0.0 };
-        let fastest = rates(self.mechanism, self.before).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
+        let fastest =
+            rates(self.mechanism, self.before).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
         for _ in 0..4 * self.mechanism.joints.len() + 2 {
             let touches = self.touches(&course.after);
             let is_over = |touch: &Touch| {
@@ -199,7 +199,8 @@ impl Impact<'_> {
         let part = self.part_of(&course.after, touches)?;
         let after = self.moved(&course.after, &part);
         for Push { contact, impulse, .. } in &part.pushes {
-            let rate = |configuration: &Configuration| configuration.gap(self.mechanism, ContactId(*contact))[1];
+            let rate =
+                |configuration: &Configuration| configuration.gap(self.mechanism, ContactId(*contact))[1];
             course.returned += impulse * part.length * f64::midpoint(rate(&course.after), rate(&after));
         }
         course.after = after;
@@ -251,7 +252,7 @@ impl Impact<'_> {
         Err(self.wedges(touches))
     }
 
-    /// What a part of an impact does, such as "left lifts off, right slides (1.2 J lost)".
+    /// Names what a part of an impact does, such as "left lifts off, right slides (1.2 J lost)".
     fn in_words(&self, configuration: &Configuration, part: &Part, touches: &[Touch]) -> String {
         let mechanism = self.mechanism;
         let after = self.moved(configuration, part);
@@ -264,7 +265,8 @@ impl Impact<'_> {
             format!("{} {does}", mechanism.contacts[touch.contact].name)
         };
         let does: Vec<String> = touches.iter().map(does).collect();
-        let lost = mechanism.units.of("J").brief(kinetic(mechanism, configuration) - kinetic(mechanism, &after));
+        let lost =
+            mechanism.units.of("J").brief(kinetic(mechanism, configuration) - kinetic(mechanism, &after));
         format!("{} ({lost} lost)", does.join(", "))
     }
 
@@ -347,8 +349,11 @@ impl Impact<'_> {
         (touching, velocities, stopped): (&Touching<'_>, &[f64], &[bool]),
         touches: &[Touch],
     ) -> Result<Vec<Assessment>, Faults> {
-        let options: Vec<Vec<JointPhase>> =
-            velocities.iter().enumerate().map(|(joint, velocity)| impulses.options(joint, *velocity)).collect();
+        let options: Vec<Vec<JointPhase>> = velocities
+            .iter()
+            .enumerate()
+            .map(|(joint, velocity)| impulses.options(joint, *velocity))
+            .collect();
         let mut question = impulses.question(&vec![0.0; velocities.len()], stopped);
         for contact in touching.mechanism.one_sided() {
             if !self.resting.contains(&touching.number(contact)) {

@@ -115,7 +115,7 @@ impl Equations<'_> {
         true
     }
 
-    /// How far what sticks is from where it does so (m or rad); of discs that have turned whole times, the least.
+    /// Returns how far what sticks is from its place (m or rad); of discs, up to whole turns.
     pub(super) fn off_place(&self, stuck: &Stuck) -> f64 {
         let off = self.place_of(stuck.what) - stuck.place;
         let slipped = disc(self.touching(), stuck.what)

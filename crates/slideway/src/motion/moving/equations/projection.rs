@@ -68,9 +68,7 @@ impl Equations<'_> {
             Some(Reaction::Couple(joint)) => mechanism
                 .slider(*joint)
                 .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
-            None => {
-                self.off_place(&self.stuck[index - self.layout.reactions().len()])
-            }
+            None => self.off_place(&self.stuck[index - self.layout.reactions().len()]),
         };
         (gap, self.gap_scale(index))
     }
