@@ -197,15 +197,16 @@ impl SolveReport {
     /// "It moves: push needs 36.36 N (20 N without friction)."
     fn moves_in_words(&self) -> String {
         let [solution] = self.solutions.as_slice() else { return String::new() };
+        let lifts = lifting_in_words(solution);
         if !solution.drives.is_empty() {
             let needs: Vec<String> = self.needs(solution);
-            return format!("It moves: {}.", needs.join(", "));
+            return format!("It moves: {}.{lifts}", needs.join(", "));
         }
         let changes: Vec<String> = self.changes(solution);
         match changes.as_slice() {
-            [] => "It has one solution.".to_owned(),
-            [change] => format!("It {change}."),
-            changes => format!("It moves: {}.", changes.join(", ")),
+            [] => format!("It has one solution.{lifts}"),
+            [change] => format!("It {change}.{lifts}"),
+            changes => format!("It moves: {}.{lifts}", changes.join(", ")),
         }
     }
 
@@ -245,7 +246,9 @@ impl SolveReport {
                 change if is_only => change.in_words().to_owned(),
                 change => format!("{name} {}", change.in_words()),
             };
-            let stop = coordinate.stop.as_ref().map_or_else(String::new, |stop| {
+            // What lifts off goes on in another way.
+            let stop = coordinate.stop.as_ref().filter(|_| lifting_in_words(solution).is_empty());
+            let stop = stop.map_or_else(String::new, |stop| {
                 let units = &self.model.units;
                 let (time, way) = (units.of("s").brief(stop.time), units.of(state.unit).brief(stop.distance));
                 format!(" and would stop after {time} and {way}")
@@ -372,4 +375,15 @@ fn end_in_words(margins: &Margins, at: &str) -> String {
 /// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
 fn safe_up_to(no: &str, times: &str) -> String {
     format!("Up to {times} {no} jams it while it moves, or leaves it several ways to go on.")
+}
+
+/// Names the contacts that lift off in a solution: " base.front lifts off."
+fn lifting_in_words(solution: &Solution) -> String {
+    let opens = solution.contacts.iter().filter(|contact| contact.gap_acceleration.is_some());
+    let names: Vec<&str> = opens.map(|contact| &*contact.name).collect();
+    match names.as_slice() {
+        [] => String::new(),
+        [only] => format!(" {only} lifts off."),
+        several => format!(" {} lift off.", several.join(" and ")),
+    }
 }
