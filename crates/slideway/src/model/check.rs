@@ -149,15 +149,15 @@ impl Model {
     /// Whether a parameter changes nothing but coefficients of friction and preloads.
     pub(crate) fn changes_friction_or_pins_alone(&self, parameter: usize) -> bool {
         let of_hinges = self.hinge_friction().flat_map(super::hinge::HingeFriction::formulas);
-        let friction: Vec<FormulaId> = self.contacts().flat_map(Contact::friction).chain(of_hinges).collect();
-        self.changes_nothing_but(&friction, parameter)
+        let of_contacts = self.contacts_and_apart().flat_map(Contact::friction);
+        self.changes_nothing_but(&of_contacts.chain(of_hinges).collect::<Vec<_>>(), parameter)
     }
 
     /// Whether nothing but the friction of contacts and hinges depends on a parameter, counted from 0.
     pub(crate) fn changes_friction_and_pins_alone(&self, parameter: usize) -> bool {
         let of_hinges = self.hinge_friction().flat_map(|friction| friction.kinetic_and_static());
-        let friction: Vec<FormulaId> = self.contacts().flat_map(Contact::friction).chain(of_hinges).collect();
-        self.changes_nothing_but(&friction, parameter)
+        let of_contacts = self.contacts_and_apart().flat_map(Contact::friction);
+        self.changes_nothing_but(&of_contacts.chain(of_hinges).collect::<Vec<_>>(), parameter)
     }
 
     fn changes_nothing_but(&self, formulas: &[FormulaId], parameter: usize) -> bool {
@@ -200,11 +200,20 @@ impl Model {
 
     /// The contacts of all sliding joints, in the order of the mechanism's.
     pub(crate) fn contacts(&self) -> impl Iterator<Item = &Contact> {
-        let sliders = self.joints.iter().filter_map(|joint| match &joint.kind {
-            JointKind::Slider(slider) => Some(slider),
+        self.sliders().flat_map(|slider| &slider.contacts)
+    }
+
+    /// These, and the contacts that do not touch in the state to be solved.
+    fn contacts_and_apart(&self) -> impl Iterator<Item = &Contact> {
+        self.sliders().flat_map(|slider| slider.contacts.iter().chain(&slider.apart))
+    }
+
+    /// The sliding joints.
+    pub(super) fn sliders(&self) -> impl Iterator<Item = &Slider> {
+        self.joints.iter().filter_map(|joint| match &joint.kind {
+            JointKind::Slider(slider) => Some(&**slider),
             JointKind::Hinge(_) => None,
-        });
-        sliders.flat_map(|slider| &slider.contacts)
+        })
     }
 
     /// Whether a formula uses a parameter, by way of others if need be; there are no circles.

@@ -257,8 +257,11 @@ impl Places<'_> {
         self.greatest(stiffness.into_iter().chain(pads).chain(travel).chain(events).collect::<Vec<_>>())
     }
 
-    /// Whatever stands elsewhere; parameters count where they are used, and looks do not count at all.
+    /// Whatever stands elsewhere; parameters count where they are used, and looks and contacts that are apart do not count at
+    /// all.
     fn others(&mut self) -> Degree {
+        let apart = self.model.sliders().flat_map(|slider| &slider.apart);
+        self.seen.extend(apart.flat_map(|contact| contact.friction().chain(contact.stiffness)));
         self.seen.extend(self.model.parameters.iter().map(|parameter| parameter.value));
         self.seen.extend(&self.model.looks);
         let all = (0..self.model.formulas.len()).map(FormulaId);
