@@ -152,7 +152,12 @@ impl Painter<'_> {
     /// as it is drawn: on whatever carries the contact; in the middle of that if it is not pressed at all.
     pub(super) fn face(&self, slide: &Slide, contact: ContactId, side: f64) -> Point {
         let is_of_block = self.mechanism.contacts[contact.index()].carried_by == CarriedBy::Block;
-        let carrier = if is_of_block { slide.block } else { slide.guide };
+        let carrier = match (is_of_block, slide.is_disc) {
+            (false, _) => slide.guide,
+            (true, false) => slide.block,
+            // It turns under its contact.
+            (true, true) => Local { origin: slide.block.origin, ..slide.guide },
+        };
         let along = (self.contact_place(contact) - carrier.origin).dot(&carrier.along);
         if side == 0.0 {
             return carrier.at(along, 0.0);

@@ -143,7 +143,6 @@ __all__ = [
     "PeakEffort",
     "Persistence",
     "PhaseReport",
-    "PointKind",
     "PointStatus",
     "PressFit",
     "Proof",
@@ -536,15 +535,6 @@ Persistence = Literal["all_values", "some_values", "undecided"]
 - `"all_values"`: For all, proven.
 - `"some_values"`: For some, proven; not for all, or that could not be proven.
 - `"undecided"`: Whether it has one for any value could not be decided."""
-
-PointKind = Literal["start", "stop", "jam", "end", "model"]
-"""The meaning of a marked point.
-
-- `"start"`: A motion begins: a circle.
-- `"stop"`: It comes to rest: a square.
-- `"jam"`: It jams: a cross.
-- `"end"`: It ends in motion: a triangle.
-- `"model"`: The values of the model itself: a diagonal cross."""
 
 PointStatus = Literal[
     "none",
@@ -1278,7 +1268,7 @@ class CourseRow(Record):
     grows: tuple[int, ...]
     """1 or -1 for each drive whose effort grows without bound there, else 0."""
     frictionless: NDArray[np.float64] | None
-    """Without friction; null where there is no position."""
+    """Without friction; null where there is no position, and where it is not known whether there is a solution."""
     power: float | None
     """Of all drives together (W)."""
     efficiency: Efficiency | None
@@ -2200,7 +2190,7 @@ class MarkedPoint(Record):
 
     at: tuple[float, float]
     """Where, in the units of the axes."""
-    kind: PointKind
+    kind: Mapping[str, Any] | str
     """The meaning of the point."""
 
 
