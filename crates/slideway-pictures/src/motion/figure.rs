@@ -133,7 +133,8 @@ fn points(history: &History, curves: &[Curve]) -> Vec<MarkedPoint> {
         is_small(0) && is_small(1) && curve.points.iter().all(|point| point[1].abs() <= point_size[1])
     };
     let mut points = Vec::new();
-    let mut add = |at: Option<&[f64; 2]>, kind| points.extend(at.map(|at| MarkedPoint { at: *at, kind }));
+    let mut add =
+        |at: Option<&[f64; 2]>, kind| points.extend(at.map(|at| MarkedPoint { at: *at, kind, part: None }));
     for (curve, group) in curves.iter().zip(groups(history)) {
         if rests(curve) {
             add(curve.points.first(), PointKind::Stop);
@@ -165,21 +166,14 @@ fn jams(history: &History) -> Vec<MarkedValue> {
     .collect()
 }
 
-/// The times of impacts on faces, with rings as large as their losses.
-fn impacts(history: &History) -> Vec<(f64, PointKind)> {
+/// The times of impacts on faces, with the energies that they take, as parts of the greatest.
+fn impacts(history: &History) -> Vec<(f64, f64)> {
     let lost = |cause: &Cause| if let Cause::Lands { energy_lost, .. } = cause { *energy_lost } else { None };
     let events = history.events.iter();
     let all: Vec<(f64, f64)> =
         events.filter_map(|event| Some((event.time, event.causes.iter().filter_map(lost).next()?))).collect();
-    let greatest = all.iter().map(|(_, lost)| *lost).fold(0.0, f64::max);
-    #[expect(
-        clippy::cast_possible_truncation,
-        clippy::cast_sign_loss,
-        reason = "at most 100, and saturating"
-    )]
-    let ring =
-        |&(time, lost): &(f64, f64)| (time, PointKind::Impact { percent: (100.0 * lost / greatest) as u8 });
-    all.iter().map(ring).collect()
+    let greatest = all.iter().map(|(_, lost)| *lost).fold(f64::MIN_POSITIVE, f64::max);
+    all.into_iter().map(|(time, lost)| (time, (lost / greatest).max(0.0))).collect()
 }
 
 /// Returns the changes that impulses make in the portrait of a coordinate, as curves from the end of one
@@ -386,9 +380,12 @@ impl Builder<'_> {
         }
         let mut panel = self.panel("Gaps", ("gap", "m"), &gaps);
         let seconds = self.units.of("s");
-        let rings = impacts(history).into_iter();
-        panel.points =
-            rings.map(|(time, kind)| MarkedPoint { at: [seconds.number_of(time), 0.0], kind }).collect();
+        let ring = |(time, part)| MarkedPoint {
+            at: [seconds.number_of(time), 0.0],
+            kind: PointKind::Impact,
+            part: Some(part),
+        };
+        panel.points = impacts(history).into_iter().map(ring).collect();
         Some(panel)
     }
 

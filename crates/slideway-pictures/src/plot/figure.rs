@@ -140,6 +140,9 @@ pub struct MarkedPoint {
     pub at: [f64; 2],
     /// The meaning of the point.
     pub kind: PointKind,
+    /// Of an impact the energy that it takes, as a part of the greatest of the motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub part: Option<f64>,
 }
 
 /// The meaning of a marked point.
@@ -157,18 +160,10 @@ pub enum PointKind {
     /// The values of the model itself: a diagonal cross.
     Model,
     /// An impact: a ring whose area is the energy that it takes.
-    Impact {
-        /// The energy in percent of the greatest of the motion.
-        percent: u8,
-    },
+    Impact,
 }
 
 impl PointKind {
-    /// As a legend has room for it.
-    pub(super) fn in_legend(self) -> Self {
-        if matches!(self, Self::Impact { .. }) { Self::Impact { percent: 30 } } else { self }
-    }
-
     /// For the legend.
     pub(super) fn words(self) -> &'static str {
         match self {
@@ -177,7 +172,7 @@ impl PointKind {
             Self::Jam => "jams",
             Self::End => "end, still moving",
             Self::Model => "the model",
-            Self::Impact { .. } => "impact; area: energy lost",
+            Self::Impact => "impact; area: energy lost",
         }
     }
 }

@@ -10,6 +10,8 @@ use serde::Serialize;
 /// Width of a sample, and its distance from the text (px).
 const SAMPLE: f64 = 38.0;
 const GAP: f64 = 9.0;
+/// The ring of an impact in a legend, as a part of the greatest.
+const IN_LEGEND: f64 = 0.3;
 /// Curves stand side by side if there is room for so many.
 const COLUMNS: f64 = 3.0;
 /// Height of a line (px).
@@ -74,7 +76,7 @@ impl Legend {
         }
         let mut kinds: Vec<PointKind> = panel.points.iter().map(|point| point.kind).collect();
         kinds.sort_unstable();
-        kinds.into_iter().for_each(|kind| legend.add(LegendSample::Point(kind.in_legend()), kind.words()));
+        kinds.into_iter().for_each(|kind| legend.add(LegendSample::Point(kind), kind.words()));
         if let Some(words) = layout.cut() {
             legend.add(LegendSample::Cut, &words);
         }
@@ -202,7 +204,7 @@ fn draw_sample(sample: &LegendSample, [x, y]: [f64; 2], width: f64, theme: &Them
                 svg.line([x, y], [x + width, y], &attributes);
             }
         }
-        LegendSample::Point(kind) => markers::point(*kind, [x + width / 2.0, y], theme, svg),
+        LegendSample::Point(kind) => markers::point((*kind, IN_LEGEND), [x + width / 2.0, y], theme, svg),
         LegendSample::Cut => {
             let tip = [x + width / 2.0, y - 5.0];
             markers::head("cut", (tip, [0.0, -1.0]), 5.0, theme.ink, svg);

@@ -81,8 +81,8 @@ pub(super) fn head(
     svg.element("polygon", &[("class", class), ("points", &corners), ("fill", colour)]);
 }
 
-/// A marked point.
-pub(super) fn point(kind: PointKind, [x, y]: [f64; 2], theme: &Theme, svg: &mut Svg) {
+/// A marked point; the ring of an impact has this part of the greatest area.
+pub(super) fn point((kind, part): (PointKind, f64), [x, y]: [f64; 2], theme: &Theme, svg: &mut Svg) {
     let style = [
         ("class", "point"),
         ("fill", theme.background),
@@ -103,9 +103,9 @@ pub(super) fn point(kind: PointKind, [x, y]: [f64; 2], theme: &Theme, svg: &mut 
     };
     match kind {
         PointKind::Start => circle(1.1 * SIZE, &style, svg),
-        PointKind::Impact { percent } => {
+        PointKind::Impact => {
             let ring = [style[0], ("fill", "none"), ("stroke", theme.warning), style[3]];
-            circle(GREATEST_RING * SIZE * (f64::from(percent) / 100.0).sqrt(), &ring, svg);
+            circle(GREATEST_RING * SIZE * part.sqrt(), &ring, svg);
         }
         PointKind::Stop => polygon(SHAPES[1], theme.ink, svg),
         PointKind::End => polygon(SHAPES[2], theme.background, svg),

@@ -379,7 +379,7 @@ impl<'f> PanelLayout<'f> {
         for point in &self.panel.points {
             let place = [self.x.place(point.at[0]), self.y.place(point.at[1])];
             if self.frame.holds(place) {
-                markers::point(point.kind, place, theme, svg);
+                markers::point((point.kind, point.part.unwrap_or(1.0)), place, theme, svg);
             }
         }
     }

@@ -29,6 +29,7 @@ pub fn size_figure(report: &SizeReport) -> Figure {
     let model = report.present.margin.map(|margin| MarkedPoint {
         at: [report.present.at / scale, margin / limit.scale()],
         kind: PointKind::Model,
+        part: None,
     });
     let met = report.met.iter().map(|met| Band {
         from: met.from / scale,

@@ -143,6 +143,7 @@ __all__ = [
     "PeakEffort",
     "Persistence",
     "PhaseReport",
+    "PointKind",
     "PointStatus",
     "PressFit",
     "Proof",
@@ -535,6 +536,16 @@ Persistence = Literal["all_values", "some_values", "undecided"]
 - `"all_values"`: For all, proven.
 - `"some_values"`: For some, proven; not for all, or that could not be proven.
 - `"undecided"`: Whether it has one for any value could not be decided."""
+
+PointKind = Literal["start", "stop", "jam", "end", "model", "impact"]
+"""The meaning of a marked point.
+
+- `"start"`: A motion begins: a circle.
+- `"stop"`: It comes to rest: a square.
+- `"jam"`: It jams: a cross.
+- `"end"`: It ends in motion: a triangle.
+- `"model"`: The values of the model itself: a diagonal cross.
+- `"impact"`: An impact: a ring whose area is the energy that it takes."""
 
 PointStatus = Literal[
     "none",
@@ -2190,8 +2201,10 @@ class MarkedPoint(Record):
 
     at: tuple[float, float]
     """Where, in the units of the axes."""
-    kind: Mapping[str, Any] | str
+    kind: PointKind
     """The meaning of the point."""
+    part: float | None = None
+    """Of an impact the energy that it takes, as a part of the greatest of the motion."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
