@@ -228,7 +228,8 @@ impl Painter<'_> {
         let is_disc = slider.is_disc();
         // The middle of a block is on its face, that of a disc above it.
         let lift = if let (Look::Face(side), false) = (look, is_disc) { 0.5 * side * height } else { 0.0 };
-        let drawn_gap = slider.apart.first().map_or(0.0, |contact| contact.gap * self.view.scale);
+        let of_all = slider.contacts.first().map(|contact| &self.mechanism.contacts[contact.index()]);
+        let drawn_gap = slider.apart.first().or(of_all).map_or(0.0, |contact| contact.gap * self.view.scale);
         let [block, guide] = [(slider.block, lift), (slider.guide, lift - drawn_gap)]
             .map(|(frame, lift)| self.local(frame, slider, lift));
         let is_belt = look == Look::Rollers;

@@ -66,14 +66,15 @@ impl Mechanism {
 
     /// Returns whether a joint is apart from a face that another joint of its block has, too.
     pub fn is_apart_from_shared_face(&self, joint: JointId) -> bool {
-        let Some(slider) = self.slider(joint).filter(|slider| slider.contacts.is_empty()) else {
-            return false;
-        };
+        // In motion all contacts are there, those that are drawn apart, too.
+        let is_apart =
+            |slider: &Slider| slider.contacts.iter().all(|contact| self.contacts[contact.index()].gap > 0.0);
+        let Some(slider) = self.slider(joint).filter(|slider| is_apart(slider)) else { return false };
         let shares = |(other, face): (JointId, &Slider)| {
             other != joint
                 && self.may_lift_off(face)
                 && self.is_one_face(slider, face)
-                && (other < joint || !face.contacts.is_empty())
+                && (other < joint || !is_apart(face))
         };
         self.sliders().any(shares)
     }
