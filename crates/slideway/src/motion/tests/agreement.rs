@@ -62,9 +62,7 @@ fn compare(name: &str, model: &Model) -> usize {
     let state = equations.state_of(&configuration);
     let mut compared = 0;
     for solution in report.solutions.iter().chain(&report.preload_gap_states) {
-        // What may lift off and begins at rest has other states than this phase.
-        let rests = |k: usize| mechanism.contacts[k].opens && solution.contacts[k].sliding_velocity == 0.0;
-        if solution.on_boundary || (0..solution.contacts.len()).any(rests) {
+        if solution.on_boundary {
             continue;
         }
         let phase = phase_of(&equations, solution);
@@ -120,6 +118,10 @@ fn all_gallery_models_at_random_states() {
             continue;
         }
         let mechanism = Mechanism::new(&model).unwrap();
+        // What sticks in the state does not slide in its phase.
+        if mechanism.sticking().next().is_some() {
+            continue;
+        }
         let mut compared = 0;
         for _ in 0..8 {
             let mut settings = Settings::default();
