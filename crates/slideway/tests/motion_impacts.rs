@@ -24,7 +24,7 @@ fn is_near(found: f64, expected: f64, within: f64) {
 fn impacts(history: &History) -> Vec<[f64; 2]> {
     let lost = |cause: &Cause| if let Cause::Lands { energy_lost, .. } = cause { *energy_lost } else { None };
     let one = |event: &slideway::motion::Event| {
-        event.causes.iter().filter_map(lost).next().map(|energy| [event.time, energy])
+        event.causes.iter().find_map(lost).map(|energy| [event.time, energy])
     };
     history.events.iter().filter_map(one).collect()
 }

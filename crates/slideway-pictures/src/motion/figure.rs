@@ -171,7 +171,7 @@ fn impacts(history: &History) -> Vec<(f64, f64)> {
     let lost = |cause: &Cause| if let Cause::Lands { energy_lost, .. } = cause { *energy_lost } else { None };
     let events = history.events.iter();
     let all: Vec<(f64, f64)> =
-        events.filter_map(|event| Some((event.time, event.causes.iter().filter_map(lost).next()?))).collect();
+        events.filter_map(|event| Some((event.time, event.causes.iter().find_map(lost)?))).collect();
     let greatest = all.iter().map(|(_, lost)| *lost).fold(f64::MIN_POSITIVE, f64::max);
     all.into_iter().map(|(time, lost)| (time, (lost / greatest).max(0.0))).collect()
 }
