@@ -218,7 +218,7 @@ impl ElasticJoints {
     }
 }
 
-/// [`ElasticJoints`] of a mechanism without friction in hinges, with its mode problem.
+/// The elastic joints of a mechanism without friction in hinges, with its mode problem.
 #[derive(Debug, Clone)]
 pub struct ElasticGuides<'p> {
     problem: &'p ModeProblem,
