@@ -2,8 +2,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
+use crate::motion_lifting::{block, lost, words};
 use slideway::model::{Model, Settings};
-use slideway::motion::{Cause, End, History, ImpactLaw, SimulateOptions, simulate};
+use slideway::motion::{End, History, ImpactLaw, SimulateOptions, simulate};
 
 fn history(text: &str, duration: f64) -> History {
     let model = Model::parse(text).unwrap().with(&Settings::default()).unwrap();
@@ -12,17 +13,12 @@ fn history(text: &str, duration: f64) -> History {
     history
 }
 
-fn words(history: &History) -> Vec<String> {
-    history.events.iter().map(|event| format!("{} {}", event.time, event.words)).collect()
-}
-
 fn is_near(found: f64, expected: f64, within: f64) {
     assert!((found - expected).abs() <= within, "{found} {expected}");
 }
 
 /// The times of impacts, each with the energy that it has taken.
 fn impacts(history: &History) -> Vec<[f64; 2]> {
-    let lost = |cause: &Cause| if let Cause::Lands { energy_lost, .. } = cause { *energy_lost } else { None };
     let one = |event: &slideway::motion::Event| {
         event.causes.iter().find_map(lost).map(|energy| [event.time, energy])
     };
@@ -254,40 +250,14 @@ fn no_restitution_adds_energy() {
     for _ in 0..100 {
         let [tilt, u, v, w] = [next(-40.0, 40.0), next(-2.0, 2.0), next(-3.0, 0.0), next(-5.0, 5.0)];
         let ([b, h, mu], restitution) = ([next(0.1, 0.5), next(0.1, 0.5), next(0.0, 1.5)], next(0.0, 1.0));
-        let text = format!(
-            r#"
-            gravity = "10 m/s^2"
-            [points]
-            M = [0, 0]
-            C = [0, "{h} m / 2"]
-            A = ["-9 m", "-0.4 m"]
-            B = ["9 m", "-0.4 m"]
-            [bodies.box]
-            points = ["M", "C"]
-            mass = "1 kg"
-            centre_of_mass = "C"
-            shape = {{ rectangle = ["{b} m", "{h} m"] }}
-            [joints.base]
-            type = "block_on_face"
-            block = "box"
-            length = "{b} m"
-            at = "M"
-            face = ["A", "B"]
-            mu = {mu}
-            restitution = {restitution}
-            closed = false
-            [coordinates.x]
-            x = "box.C"
-            rate = "{u} m/s"
-            [coordinates.y]
-            y = "box.C"
-            rate = "{v} m/s"
-            [coordinates.turn]
-            rotation = "box"
-            value = "{tilt} deg"
-            rate = "{w} rad/s"
-            "#
+        let joint = format!(
+            "at = \"M\"\nface = [\"A\", \"B\"]\nmu = {mu}\nrestitution = {restitution}\nclosed = false"
         );
+        let coordinates = format!(
+            "[coordinates.x]\nx = \"box.C\"\nrate = \"{u} m/s\"\n[coordinates.y]\ny = \"box.C\"\nrate = \"{v} m/s\"\n\
+             [coordinates.turn]\nrotation = \"box\"\nvalue = \"{tilt} deg\"\nrate = \"{w} rad/s\""
+        );
+        let text = block([b, h], &joint, &coordinates);
         let model = Model::parse(&text).unwrap().with(&Settings::default()).unwrap();
         let history = simulate(&model, &SimulateOptions::new(0.4)).unwrap();
         for [_, lost] in impacts(&history) {

@@ -9,7 +9,7 @@ const G: f64 = 10.0;
 
 /// A block of 1 kg, `b` wide and `h` high, with the ends A and B of a floor 0.4 m below; `of_joint` and `coordinates` are the rest
 /// of the model.
-fn block([b, h]: [f64; 2], of_joint: &str, coordinates: &str) -> String {
+pub(crate) fn block([b, h]: [f64; 2], of_joint: &str, coordinates: &str) -> String {
     format!(
         r#"
         gravity = "{G} m/s^2"
@@ -38,7 +38,7 @@ fn history(text: &str, duration: f64) -> History {
     simulate(&model, &SimulateOptions::new(duration)).unwrap()
 }
 
-fn words(history: &History) -> Vec<String> {
+pub(crate) fn words(history: &History) -> Vec<String> {
     history.events.iter().map(|event| format!("{} {}", event.time, event.words)).collect()
 }
 
@@ -184,7 +184,7 @@ fn a_block_falls_flat() {
     is_near(lost, (u * u + v * v - after * after) / 2.0, 1e-10);
 }
 
-fn lost(cause: &Cause) -> Option<f64> {
+pub(crate) fn lost(cause: &Cause) -> Option<f64> {
     if let Cause::Lands { energy_lost, .. } = cause { *energy_lost } else { None }
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
+use crate::motion_lifting::words;
 use slideway::model::{Model, Settings};
 use slideway::motion::{End, History, SimulateOptions, simulate};
 
@@ -13,10 +14,6 @@ fn history(text: &str, duration: f64) -> History {
     assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
     assert!(history.energy_error < 1e-8 * history.energy_scale, "{}", history.energy_error);
     history
-}
-
-fn words(history: &History) -> Vec<String> {
-    history.events.iter().map(|event| format!("{} {}", event.time, event.words)).collect()
 }
 
 fn is_near(found: f64, expected: f64, within: f64) {
