@@ -117,10 +117,12 @@ impl Equations<'_> {
 
     /// Returns how far what sticks is from its place (m or rad); of discs, up to whole turns.
     pub(super) fn off_place(&self, stuck: &Stuck) -> f64 {
-        let off = self.place_of(stuck.what) - stuck.place;
-        let slipped = disc(self.touching(), stuck.what)
-            .and_then(|disc| self.configuration.slipped(self.touching(), disc).1);
-        slipped.map_or(off, |turn| off - turn * (off / turn).round())
+        let Some(disc) = disc(self.touching(), stuck.what) else {
+            return self.place_of(stuck.what) - stuck.place;
+        };
+        let (place, turn) = self.configuration.slipped(self.touching(), disc);
+        let off = place - stuck.place;
+        turn.map_or(off, |turn| off - turn * (off / turn).round())
     }
 
     /// The coordinate that is held where something sticks, if it is not a disc.
