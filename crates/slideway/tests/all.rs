@@ -21,6 +21,7 @@ mod motion_gaps;
 mod motion_impacts;
 mod motion_lifting;
 mod motion_outcomes;
+mod motion_play;
 mod motion_reference;
 mod motion_rolling;
 mod motion_zero_force;

@@ -340,3 +340,17 @@ fn a_ladder_ends_lying_on_the_floor() {
         "It ends at 1.03 s: ladder.head reaches the face of foot, where the model has no contact. Add a `corner_on_face` there, with its `face` and `closed = false`."
     );
 }
+
+/// What stands from the beginning stays at rest, though nothing ever moves beside which rounding of its velocity could be told:
+/// a ladder whose person has climbed no higher than it holds, a box on a slope that is not pushed.
+#[test]
+fn what_stands_stays_at_rest() {
+    let ladder = include_str!("../models/ladder.toml").to_owned();
+    let angle = include_str!("../models/box-on-incline.toml").replace("rate = \"-1 m/s\"", "");
+    for text in [ladder, angle] {
+        let stands = history(&text, 1.0);
+        let options = SimulateOptions::new(1.0);
+        let end = slideway::motion::report(&stands, &options).end.words;
+        assert_eq!(end, "It stays at rest until 1 s.", "{:#?}", words(&stands));
+    }
+}

@@ -66,7 +66,7 @@ impl<'a, 'm> Run<'a, 'm> {
             impulses: Vec::new(),
             undetermined: Vec::new(),
             initial: configuration.clone(),
-            last: LastState { time: configuration.time, state: state.clone() },
+            last: LastState { time: configuration.time, state: state.clone(), is_still: false },
         };
         let smooth = Smooth::new(equations, state, configuration.time, options);
         Self { options, decisions, smooth, phase: None, history, branchings: 0, work }
@@ -83,7 +83,11 @@ impl<'a, 'm> Run<'a, 'm> {
             Some(end) => end,
         };
         self.history.end = end;
-        self.history.last = LastState { time: self.smooth.time, state: self.smooth.state.clone() };
+        self.history.last = LastState {
+            time: self.smooth.time,
+            state: self.smooth.state.clone(),
+            is_still: self.smooth.is_still(),
+        };
         self.history.statistics.evaluations = self.smooth.equations.evaluations;
         self.history.undetermined = self.smooth.undetermined.iter().copied().collect();
         if let Some(interval) = self.history.phases.last_mut() {

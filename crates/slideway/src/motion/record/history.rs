@@ -57,6 +57,8 @@ pub(in crate::motion) struct ImpulseLoss {
 pub(in crate::motion) struct LastState {
     pub(in crate::motion) time: f64,
     pub(in crate::motion) state: Vec<f64>,
+    /// Whether nothing moves, within rounding.
+    pub(in crate::motion) is_still: bool,
 }
 
 /// A phase and when it holds.
@@ -254,7 +256,7 @@ impl History {
     /// Its state at the end, and the energies up to there. They follow from the state alone, so that no equations are
     /// solved.
     pub(in crate::motion) fn at_end(&self) -> (Configuration, Energy) {
-        let LastState { time, state } = &self.last;
+        let LastState { time, state, .. } = &self.last;
         let mut equations = Equations::new(&self.mechanism, &self.initial);
         equations.place(*time, state);
         let energy = Energy::of(&self.mechanism, &equations.configuration, state, self.lost_until(*time));
@@ -344,7 +346,7 @@ impl Reader<'_> {
     /// Places the equations at a time; returns the number of the phase.
     fn locate(&mut self, time: f64) -> Option<usize> {
         let history = self.history;
-        let LastState { time: end, state: last } = &history.last;
+        let LastState { time: end, state: last, .. } = &history.last;
         let phase = if time == *end {
             self.state.copy_from_slice(last);
             history.phases.len().checked_sub(1)?

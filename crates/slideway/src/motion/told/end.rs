@@ -70,20 +70,15 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
     }
 }
 
-/// With this part of the greatest energy so far nothing moves.
-const STILL: f64 = 1e-15;
-
 /// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
     // What sticks may turn about the corner with which it does.
-    let is_still = history.at_end().1.kinetic <= STILL * history.energy_scale;
+    let is_still = history.last.is_still;
     let rest =
         history.phases.last().filter(|interval| interval.phase.is_at_rest(&history.mechanism) && is_still);
     let Some(rest) = rest else {
-        let bodies = 3 * history.mechanism.bodies.len();
-        let moves = history.last.state[bodies..2 * bodies].iter().any(|velocity| *velocity != 0.0);
-        let what = if moves { "It is still moving" } else { "Nothing moves" };
+        let what = if is_still { "Nothing moves" } else { "It is still moving" };
         return format!("{what} at {time}.{}", jams_on_the_way(jams.len()));
     };
     let from = history.mechanism.units.of("s").brief(rest.from);

@@ -133,6 +133,17 @@ impl<'o, 'm> Smooth<'o, 'm> {
         sliders.iter().map(|joint| little(*joint)).chain(hinges).collect()
     }
 
+    /// Returns whether no body moves faster than what counts as rest beside the velocities so far, and those that forces could
+    /// give.
+    pub(in crate::motion) fn is_still(&self) -> bool {
+        let Equations { mechanism, .. } = &self.equations;
+        let rates = self.state[3 * mechanism.bodies.len()..].chunks_exact(3).zip(0..mechanism.bodies.len());
+        rates.into_iter().all(|(rate, body)| {
+            let little = REST * self.watch.magnitudes.of_body(body).velocity;
+            rate[0].abs().max(rate[1].abs()).max(rate[2].abs() * mechanism.size) <= little
+        })
+    }
+
     /// Forces below this are rounding beside the greatest so far, on each body (N).
     pub(in crate::motion) fn rounding(&self) -> Vec<f64> {
         self.watch.rounding()
@@ -271,6 +282,9 @@ impl<'o, 'm> Smooth<'o, 'm> {
         let length = self.stop_at(phase, decisions, solution, zero, history)?;
         if length > 0.0 && self.still_slides(phase, &causes) {
             return self.go_on(length, phase, decisions).map(|()| None);
+        }
+        if length > 0.0 && self.jumps_through_zero(&watched, phase) {
+            causes = vec![self.end_of_mode()];
         }
         causes.extend(self.held_causes(&watched, phase, decisions)?);
         let mut switches = self.due();

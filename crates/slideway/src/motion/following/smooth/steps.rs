@@ -11,9 +11,9 @@ use crate::motion::moving::watch::{Needs, Watched};
 use crate::motion::record::history::History;
 use crate::pattern::phase::Phase;
 
-/// A sliding velocity counts as zero below this part of its greatest value in the step, or below the errors
-/// of steps.
-const STOPPED: f64 = 0.01;
+/// A sliding velocity or a normal force counts as zero below this part of its greatest value in the step, or below the
+/// errors of steps.
+const VANISHED: f64 = 0.01;
 /// Part of the way to a zero over which the slope there is taken: the square root of what numbers resolve.
 const SLOPE: f64 = 1e-8;
 
@@ -180,8 +180,22 @@ impl Smooth<'_, '_> {
                 let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
                 let stops = causes.contains(&cause);
                 let velocity = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0);
-                stops && velocity > little && velocity > STOPPED * greatest
+                stops && velocity > little && velocity > VANISHED * greatest
             })
+    }
+
+    /// Returns whether a normal force that should have vanished at the end of the step is far from zero: it is not continuous
+    /// within what the errors of steps permit, since the determinant of the mode vanishes there.
+    pub(super) fn jumps_through_zero(&self, watched: &[Watched], phase: &Phase) -> bool {
+        watched.iter().any(|watched| {
+            let Some(index) = self.watch.list.iter().position(|one| one == watched) else { return false };
+            let samples = self.values.iter().filter_map(|values| values.get(index));
+            let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
+            let value = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0).abs();
+            matches!(watched, Watched::NormalForce(_))
+                && value > self.watch.tolerance(*watched, &self.equations)
+                && value > VANISHED * greatest
+        })
     }
 
     /// Goes on in the same phase from where a shortened step has ended, in steps of half its length.
