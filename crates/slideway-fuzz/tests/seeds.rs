@@ -37,6 +37,9 @@ fn questions_over_ranges_that_nobody_would_write_end() {
     {
         ranges((u8::try_from(crank).unwrap(), question, [0, 1], ends));
     }
+    // The distance of neighbours in a range of the least numbers has no two digits.
+    let oscillator = gallery::MODELS.iter().position(|model| model.name == "frictional-oscillator").unwrap();
+    ranges((u8::try_from(oscillator).unwrap(), 0, [0, 0], [0.0, 2.42e-322]));
 }
 
 /// Ends of ranges as a user may write them: ordinary ones, very great and small ones, and none at all.

@@ -354,3 +354,48 @@ fn what_stands_stays_at_rest() {
         assert_eq!(end, "It stays at rest until 1 s.", "{:#?}", words(&stands));
     }
 }
+
+/// C. Glocker, Dynamik von Starrkoerpersystemen mit Reibung und Stoessen, VDI-Fortschrittberichte 18/182 (1995), section 5.3.4:
+/// a rod slides on its tip towards the angle at which its mobility `1 + 3 cos (cos - mu sin)` vanishes, and reaches it, since the
+/// acceleration of its tip without force vanishes there, too. The force grows like `D^(-1/3)`, with a finite impulse. Time,
+/// rates and slip are those of an event-driven program of its own (case `rod_runs_into_the_jam`).
+#[test]
+fn a_rod_runs_into_its_jam() {
+    let lean = 31_f64.to_radians();
+    let text = format!(
+        r#"
+        gravity = "10 m/s^2"
+        [points]
+        P = [0, 0]
+        C = ["-{} m", "{} m"]
+        A = ["-99 m", 0]
+        B = ["99 m", 0]
+        [bodies.rod]
+        points = ["P", "C"]
+        mass = "1 kg"
+        moment_of_inertia = "1 kg m^2 / 3"
+        centre_of_mass = "C"
+        [joints.tip]
+        type = "corner_on_face"
+        block = "rod"
+        at = "P"
+        face = ["A", "B"]
+        mu = "5/3"
+        [coordinates.x]
+        x = "rod.P"
+        rate = "30 m/s"
+        [coordinates.turn]
+        rotation = "rod"
+        "#,
+        lean.cos(),
+        lean.sin()
+    );
+    let history = history(&text, 1.0);
+    let event = &history.events[1];
+    is_near(event.time, 0.814_55, 1e-5);
+    assert_eq!(event.causes, [Cause::Locks], "{:#?}", words(&history));
+    let mut reader = history.reader();
+    let configuration = reader.configuration(event.time).unwrap();
+    is_near(configuration.velocities[0].angular, -3.760_603_093, 1e-3);
+    is_near(lean - configuration.poses[0].angle(), std::f64::consts::FRAC_PI_4, 1e-3);
+}

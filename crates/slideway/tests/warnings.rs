@@ -140,7 +140,9 @@ fn an_angle_without_a_unit_may_not_exceed_a_full_turn() {
     let with = |along: &str| drawer().replacen("along = \"0 deg\"", &format!("along = {along}"), 1);
     assert_eq!(names(&of_text(&with("90"))), ["bare_angle"]);
     assert_eq!(names(&of_text(&with("\"-90\""))), ["bare_angle"]);
-    for allowed in ["6.28", "\"90 deg\"", "\"90 rad\"", "\"720 deg\""] {
+    // Less than that is in doubt only beside angles in degrees.
+    assert_eq!(names(&of_text(&with("6.28"))), ["bare_number"]);
+    for allowed in ["\"6.28 rad\"", "\"90 deg\"", "\"90 rad\"", "\"720 deg\""] {
         assert_eq!(of_text(&with(allowed)), [], "{allowed}");
     }
     // The place is that of the number, also where it is a parameter.
@@ -189,6 +191,37 @@ fn friction_above_two_is_rare() {
     assert_eq!(names(&with("30")), ["great_friction"]);
     assert_eq!(with("2"), []);
     assert_eq!(names(&with("2.001")), ["great_friction"]);
+}
+
+#[test]
+fn a_small_angle_without_unit_is_in_doubt_beside_degrees() {
+    let text = gallery::find("box-on-incline").expect("in the gallery").text;
+    assert!(text.contains("\"20 deg\""));
+    // The only angle of the model is taken as it is; beside another one in degrees it is not.
+    assert_eq!(of_text(&text.replace("\"20 deg\"", "0.35")), []);
+    let beside = text.replace("\"20 deg\"", "5").replace("[points]", "tilt = \"3 deg\"\n[points]");
+    assert_eq!(names(&of_text(&beside)), ["bare_number"]);
+}
+
+#[test]
+fn gravity_of_no_planet_is_in_doubt() {
+    let text = gallery::find("ladder").expect("in the gallery").text;
+    assert!(text.contains("gravity = \"9.81 m/s^2\""));
+    let with = |gravity: &str| of_text(&text.replace("gravity = \"9.81 m/s^2\"", gravity));
+    assert_eq!(names(&with("gravity = 9810")), ["great_gravity"]);
+    assert_eq!(with("gravity = \"9810 mm/s^2\""), []);
+    // Without it nothing presses, and "it holds" would mean nothing.
+    assert_eq!(names(&with("")), ["no_loads"]);
+}
+
+#[test]
+fn what_touches_a_face_is_not_behind_it() {
+    let text = gallery::find("ladder").expect("in the gallery").text;
+    let turned = text.replace("along = \"90 deg\"", "along = \"-90 deg\"");
+    assert_ne!(turned, text);
+    let found = of_text(&turned);
+    assert_eq!(names(&found), ["behind_face"]);
+    assert_eq!(found[0].0.to_string(), "ladder lies behind the face of head");
 }
 
 /// With mu = 0.12 a pin of 12 mm has a friction circle of 1.4297 mm; the links are 100 mm long, which r = rho sin(atan mu)
@@ -318,7 +351,7 @@ fn check_lists_them_for_programs() {
 fn a_corner_on_a_face_without_contact() {
     let of_joint = |joint: &str| {
         format!(
-            "[points]\nA = [\"-0.1 m\", 0]\nM = [0, 0]\nC = [0, \"0.2 m\"]\n[bodies.box]\npoints = [\"A\", \"M\", \"C\"]\nmass = \"1 kg\"\n\
+            "gravity = \"9.81 m/s^2\"\n[points]\nA = [\"-0.1 m\", 0]\nM = [0, 0]\nC = [0, \"0.2 m\"]\n[bodies.box]\npoints = [\"A\", \"M\", \"C\"]\nmass = \"1 kg\"\n\
              centre_of_mass = \"C\"\nshape = {{ rectangle = [\"0.2 m\", \"0.4 m\"] }}\n[joints.foot]\nblock = \"box\"\nalong = \"0 deg\"\nmu = 0.3\n\
              {joint}\n[coordinates.x]\nslide = \"foot\"\n"
         )

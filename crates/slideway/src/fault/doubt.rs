@@ -27,6 +27,14 @@ pub enum Doubt {
         "the friction circle of {hinge} has a radius of {radius}, and the hinge {other} of {body} is {distance} from its centre: every force through {other} passes inside the circle"
     )]
     WideFrictionCircle { hinge: String, radius: String, body: String, other: String, distance: String },
+    #[error("the gravity is {value}, more than ten times that of the Earth")]
+    GreatGravity { value: String },
+    #[error("{body} lies behind the face of {joint}")]
+    BehindFace { body: String, joint: String },
+    #[error(
+        "the model has neither gravity nor a load nor a drive: nothing presses, so that everything holds"
+    )]
+    NoLoads,
     #[error("nothing presses any guide: all contact forces are zero, and friction has nothing to act on")]
     NothingPresses,
     #[error("{corner} lies on the face of {joint} and has no contact there")]
@@ -49,6 +57,9 @@ impl Doubt {
             Self::FarFromDrawing { .. } => "far_from_drawing",
             Self::GreatFriction { .. } => "great_friction",
             Self::WideFrictionCircle { .. } => "wide_friction_circle",
+            Self::GreatGravity { .. } => "great_gravity",
+            Self::BehindFace { .. } => "behind_face",
+            Self::NoLoads => "no_loads",
             Self::NothingPresses => "nothing_presses",
             Self::BareCorner { .. } => "bare_corner",
             Self::RangeAtMiddle { .. } => "range_at_middle",
@@ -89,6 +100,15 @@ impl Doubt {
                 "`{}` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`",
                 face.question("solve")
             ),
+            Self::GreatGravity { .. } => {
+                "look for a wrong or missing unit: `9.81 m/s^2` and `9810 mm/s^2` are that of the Earth".to_owned()
+            }
+            Self::BehindFace { .. } => {
+                "turn the face round, by 180 deg in `along` or with the two ends of `face` exchanged: what touches it \
+                 is on its left side"
+                    .to_owned()
+            }
+            Self::NoLoads => "add `gravity = \"9.81 m/s^2\"`, or the load that it has to carry".to_owned(),
             Self::NothingPresses => {
                 "so it moves as without friction, but only exactly here: try a load or place a little beside; if a \
                 load is missing, add the resistance, the weight or the acceleration that the drive works against"

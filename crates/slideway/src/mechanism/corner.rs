@@ -166,6 +166,30 @@ impl Mechanism {
         slider.rim() + self.all_of(slider).next().map_or(0.0, |contact| contact.gap)
     }
 
+    /// The bodies that lie behind a face that they touch, each with the joint of it: all that is drawn of them but what touches.
+    pub(crate) fn behind_faces(&self) -> Vec<(JointId, BodyId)> {
+        let near = SAME_PLACE * self.size;
+        let behind = |(joint, face): (JointId, &Slider)| {
+            let body = face.block.body().filter(|_| self.may_lift_off(face))?;
+            let gaps: Vec<f64> =
+                self.extremes(body).into_iter().map(|extreme| self.gap_in_drawing(face, extreme)).collect();
+            let is_behind = gaps.iter().any(|gap| *gap < -near) && gaps.iter().all(|gap| *gap <= near);
+            is_behind.then_some((joint, body))
+        };
+        self.sliders().filter_map(behind).collect()
+    }
+
+    /// The distance of a corner or rim from a face in the drawing (m).
+    fn gap_in_drawing(&self, face: &Slider, (place, radius): (Vector2<f64>, f64)) -> f64 {
+        match &face.round {
+            None => rot90(face.tangent).dot(&(place - face.at)) + self.off_face(face) - radius,
+            Some(round) => {
+                let distance = length(place - Vector2::from(round.centre));
+                if round.inside { round.radius - radius - distance } else { distance - round.radius - radius }
+            }
+        }
+    }
+
     /// A corner against a face; none where the body overlaps the face in the drawing already.
     fn bare_corner(
         &self,
@@ -173,13 +197,7 @@ impl Mechanism {
         body: BodyId,
         (place, radius): (Vector2<f64>, f64),
     ) -> Option<BareCorner> {
-        let gap = match &face.round {
-            None => rot90(face.tangent).dot(&(place - face.at)) + self.off_face(face) - radius,
-            Some(round) => {
-                let distance = length(place - Vector2::from(round.centre));
-                if round.inside { round.radius - radius - distance } else { distance - round.radius - radius }
-            }
-        };
+        let gap = self.gap_in_drawing(face, (place, radius));
         if gap < -SAME_PLACE * self.size {
             return None;
         }

@@ -19,12 +19,13 @@ mod lengths;
 use crate::configuration::{Configuration, widest_gap_of_drawing};
 use crate::expression::Symbol;
 use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source};
-use crate::ids::{FormulaId, Frame, JointId};
+use crate::ids::{BodyId, FormulaId, Frame, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::{BareCorner, Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
-use crate::model::{Along, Effort, ForceValue, JointKind, LoadKind, Model};
+use crate::model::{Along, Effort, ForceValue, Gravity, JointKind, LoadKind, Model};
 use crate::report::number::number;
+use nalgebra::Vector2;
 use serde::Serialize;
 use std::cell::LazyCell;
 use std::f64::consts::TAU;
@@ -39,13 +40,15 @@ const FAR: f64 = 3.0;
 const SAME_PLACE: f64 = 1e-9;
 /// Coefficients of friction above this are rare.
 const GREAT_FRICTION: f64 = 2.0;
+/// A gravity above this is found on no planet (m/s^2).
+const GREAT_GRAVITY: f64 = 100.0;
 
 /// A warning as a report tells it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct WarningReport {
     /// Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed", "far_from_drawing",
-    /// "great_friction", "wide_friction_circle", "bare_corner" or "nothing_presses".
+    /// "great_friction", "great_gravity", "wide_friction_circle", "bare_corner", "behind_face", "no_loads" or "nothing_presses".
     pub kind: &'static str,
     /// Where it lies; null where it concerns the input as a whole.
     pub place: Option<WarningPlace>,
@@ -102,6 +105,9 @@ pub fn warnings(model: &Model) -> Faults {
     if let Ok(mechanism) = Mechanism::new(model) {
         found.extend(great_friction(model));
         found.extend(wide_friction_circles(model, &mechanism));
+        found.extend(great_gravity(model, &mechanism));
+        found.extend(no_loads(&mechanism));
+        found.extend(behind_faces(&mechanism));
         found.extend(gap_closed(model, &mechanism));
         found.extend(bare_corners(&mechanism));
         // Assembled once, and only if one of them asks.
@@ -127,19 +133,60 @@ pub fn ranges_at_middle(model: &Model) -> Faults {
     found
 }
 
+fn great_gravity(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
+    let gravity = mechanism.gravity.norm();
+    if gravity <= GREAT_GRAVITY {
+        return None;
+    }
+    let formula = match model.gravity {
+        Gravity::None => return None,
+        Gravity::Down(id) | Gravity::Components([_, id]) => id,
+    };
+    let value = mechanism.units.of("m/s^2").show(gravity);
+    let doubt = Doubt::GreatGravity { value };
+    Some(warning(
+        doubt,
+        model.setting_of(&[formula]).unwrap_or_else(|| model.formula(formula).origin.place()),
+    ))
+}
+
+/// Friction of what nothing can press.
+fn no_loads(mechanism: &Mechanism) -> Option<Fault> {
+    let has_loads =
+        mechanism.gravity != Vector2::zeros() || !mechanism.loads.is_empty() || !mechanism.drives.is_empty();
+    let presses = |contact: &Contact| contact.preload != [0.0; 2] || is_displaced(contact);
+    let none =
+        has_loads || !mechanism.contacts.iter().any(is_rough) || mechanism.contacts.iter().any(presses);
+    (!none).then(|| Fault::general(FaultKind::Doubt(Doubt::NoLoads)))
+}
+
+/// Bodies behind a face that they touch.
+fn behind_faces(mechanism: &Mechanism) -> Vec<Fault> {
+    let one = |(joint, body): (JointId, BodyId)| {
+        let joint = &mechanism.joints[joint.index()];
+        let body = mechanism.bodies[body.index()].name.to_string();
+        warning(Doubt::BehindFace { body, joint: joint.name.to_string() }, joint.place.clone())
+    };
+    mechanism.behind_faces().into_iter().map(one).collect()
+}
+
+fn is_rough(contact: &Contact) -> bool {
+    contact.mu != [0.0; 2]
+}
+
+fn is_displaced(contact: &Contact) -> bool {
+    contact.misalignment != 0.0 || contact.misalignment_law.is_some() || contact.face.is_some()
+}
+
 /// A driven mechanism without any contact force: whatever the friction, it seems to move. The forces are exactly
 /// zero, as nothing on the right-hand side of the equations is not. Redundant guides that are out of line press by
 /// themselves.
 fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
-    let is_rough = |contact: &Contact| contact.mu != [0.0; 2];
     let rubs = |contact: &Contact| contact.preload != [0.0; 2];
     let contacts = &mechanism.contacts;
     if mechanism.drives.is_empty() || !contacts.iter().any(is_rough) || contacts.iter().any(rubs) {
         return None;
     }
-    let is_displaced = |contact: &Contact| {
-        contact.misalignment != 0.0 || contact.misalignment_law.is_some() || contact.face.is_some()
-    };
     if !mechanism.excess.is_empty() && contacts.iter().any(is_displaced) {
         return None;
     }
@@ -188,12 +235,18 @@ fn angles(model: &Model) -> Vec<FormulaId> {
     all
 }
 
-/// A bare number beyond a full turn as an angle, or as the parameter that it is.
+/// A bare number as an angle, or as the parameter that it is, beyond a full turn or in a model whose angles are in degrees.
 fn bare_angle(model: &Model, angle: FormulaId) -> Option<Fault> {
     let formula = model.formula(angle);
-    let value = formula.expression.bare_number().filter(|value| value.abs() > FULL_TURN)?;
+    let value = formula.expression.bare_number().filter(|value| *value != 0.0)?;
     let what = formula.what.to_string();
-    Some(warning(Doubt::BareAngle { what, value }, formula.origin.place()))
+    let doubt = if value.abs() > FULL_TURN {
+        Doubt::BareAngle { what, value }
+    } else {
+        let unit = model.units.typed("rad").filter(|unit| unit.scale() != 1.0)?;
+        Doubt::BareNumber { what, value, si: unit.si().to_owned(), unit: unit.name().to_owned() }
+    };
+    Some(warning(doubt, formula.origin.place()))
 }
 
 fn great_friction(model: &Model) -> Vec<Fault> {

@@ -17,7 +17,7 @@ use super::rules::{Continuation, Continuations, EventInstant};
 use super::sticking::phase_state;
 use super::successors::{Successor, Successors};
 use super::{DeterminedForces, MOST_STATES, PhaseBound, Standing};
-use crate::configuration::{Configuration, Velocity};
+use crate::configuration::{Configuration, Mobility, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::KineticEquations;
@@ -89,7 +89,13 @@ impl<'m> Touching<'m> {
         whole
     }
 
-    /// The phases of it in which the mechanism can go on.
+    /// Returns whether the rows of the contacts that are left depend on one another. Whatever they do together, they do without
+    /// one of these as well, whose gap does not change: each way to share what they carry is a mean of ways without one.
+    pub(super) fn is_redundant(&self, configuration: &Configuration) -> bool {
+        Mobility::of(&self.mechanism, configuration).excess() > self.mechanism.excess.rows.len()
+    }
+
+    /// The phases of it in which the mechanism can go on; none where contacts that are left out do as well.
     fn successors(&self, event: &EventInstant<'_>) -> Result<Successors, Faults> {
         let apart = self.is_apart();
         let signs: Vec<f64> =
@@ -108,7 +114,12 @@ impl<'m> Touching<'m> {
             previous: previous.as_ref(),
             ..*event
         };
-        super::successors::continuations(&event)
+        match super::successors::continuations(&event) {
+            Err(_) if self.is_redundant(event.configuration) => {
+                Ok(Successors { complete: true, ..Successors::default() })
+            }
+            found => found,
+        }
     }
 }
 

@@ -284,7 +284,10 @@ impl Impact<'_> {
         (touches, towards): (&[Touch], Towards),
     ) -> Result<Vec<Part>, Faults> {
         let mechanism = &touching.mechanism;
-        let instant = Instant::new(mechanism, configuration)?;
+        let instant = match Instant::new(mechanism, configuration) {
+            Err(_) if touching.is_redundant(configuration) => return Ok(Vec::new()),
+            instant => instant?,
+        };
         let short_of = |k: usize| {
             let touch = touches.iter().find(|touch| touch.contact == k);
             touch.map_or(0.0, |touch| touch.rate - touch.end)
