@@ -73,10 +73,9 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
 /// The end of a motion that was followed to the requested time: whether it is at rest, and since when.
 fn finished(history: &History, time: &str) -> String {
     let jams: Vec<f64> = history.events.iter().filter(|event| jams(event)).map(|event| event.time).collect();
-    // What sticks may turn about the corner with which it does.
+    // What sticks may turn about the corner with which it does; what has no friction never sticks.
     let is_still = history.last.is_still;
-    let rest =
-        history.phases.last().filter(|interval| interval.phase.is_at_rest(&history.mechanism) && is_still);
+    let rest = history.phases.last().filter(|interval| is_still && interval.phase.sticks());
     let Some(rest) = rest else {
         let what = if is_still { "Nothing moves" } else { "It is still moving" };
         return format!("{what} at {time}.{}", jams_on_the_way(jams.len()));
