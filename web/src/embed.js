@@ -95,10 +95,14 @@ class Live extends HTMLElement {
       slow.end(this);
     });
     this.#drawings = new Drawings(this.#pictures);
-    this.#strip = new Strip(this.#figure, (value) => {
-      this.#state.changes.set(key(this.#quantity), withUnit(value, this.#quantity.unit));
-      this.#look();
-    });
+    this.#strip = new Strip(
+      this.#figure,
+      (value) => {
+        this.#state.changes.set(key(this.#quantity), withUnit(value, this.#quantity.unit));
+        this.#look();
+      },
+      (words) => this.#verdict.near(words),
+    );
     this.#figure.append(this.#pictures, element("p", {}, this.#link));
     const styles = ["drawing.css", "style.css"].map((name) => element("link", { rel: "stylesheet", href: here(name) }));
     this.shadowRoot.prepend(...styles);

@@ -63,7 +63,11 @@ const verdict = new Verdict(document, () => {
 const drawings = new Drawings(byId("drawings"));
 const sliders = new Sliders(byId("sliders"), changed);
 const editor = new Editor(byId("editor"), settled(edited, 120));
-const strip = new Strip(byId("strip"), (value) => changed(varied(), withUnit(value, varied().unit)));
+const strip = new Strip(
+  byId("strip"),
+  (value) => changed(varied(), withUnit(value, varied().unit)),
+  (words) => verdict.near(words),
+);
 const map = new MapPanel(byId("panel-map"), {
   ask: (question, axes) => slowly({ ...question, ...state.asked(...axes) }),
   move: (moves) => changedAll(moves.map(([quantity, value]) => [quantity, withUnit(value, quantity.unit)])),
@@ -431,10 +435,11 @@ function showStrip(asked = state.changes) {
 }
 
 /** The question that the strip answers, and what to do. */
-const invitation = ({ kind, name, meaning, is_friction }) =>
-  `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} the ${
-    kind === "position" ? `position ${name}` : meaning ? `${meaning} (${name})` : name
-  }.`;
+function invitation({ kind, name, meaning, is_friction }) {
+  const what = [is_friction ? "the friction" : kind === "position" ? "the position" : "", name].filter(Boolean).join(" ");
+  const means = kind === "parameter" && meaning ? ` (${meaning})` : "";
+  return `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} ${what}${means}.`;
+}
 
 /** Asks where each mode exists, unless that is known: it does not depend on the value that is varied. */
 const askLimits = settled(async () => {
