@@ -8,15 +8,13 @@ import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
 import { withUnit } from "./numbers.js";
 import { Sliders, key } from "./sliders.js";
-import { State, changesOf } from "./state.js";
+import { REST, State, changesOf } from "./state.js";
 import { Strip, along, eligibleOf, limitsQuestion, stripOf } from "./strip.js";
 import { Verdict } from "./verdict.js";
 import { Engine, Newest, Turns, load } from "./workers.js";
 
 /** A file larger than this is not read: no model is. */
 const LARGEST_FILE = 4 << 20;
-/** Without a change for this long (ms) what takes longer is computed, too. */
-const REST = 250;
 
 byId("loading").max = ENGINE_BYTES;
 /** The models to begin with. */
