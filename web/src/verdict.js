@@ -4,7 +4,7 @@ import { element, say } from "./dom.js";
 import { Ended } from "./workers.js";
 
 /** What is seen at a glance, for each status. */
-const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", infinitely_many: "∞" };
+const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", continuum: "∞" };
 /** So many faults are listed. */
 const MOST = 50;
 
