@@ -5,6 +5,8 @@ import { element, follow, parsed } from "./dom.js";
 /** The smallest texts of drawings, in their units, and how large they are at least where space is short (pixels). */
 const SMALLEST = 14;
 const LEGIBLE = 11;
+/** So many times its own size a drawing has at most. */
+const LARGE = 1.3;
 
 /**
  * How wide a drawing may be (in its units) to be seen whole on this screen with texts that can be read; `null` where there is
@@ -53,8 +55,14 @@ export class Drawings {
 /** A drawing as an element. */
 function whole(markup) {
   const [svg] = parsed(markup);
-  // Where the style sheet asks for it a drawing is at least so wide that its texts can be read.
-  svg.style.setProperty("--legible", `${Math.ceil((LEGIBLE / SMALLEST) * svg.viewBox.baseVal.width)}px`);
+  // Where the style sheet asks for it a drawing is at least so large that its texts can be read, and nowhere much larger.
+  const { width, height } = svg.viewBox.baseVal;
+  for (const [name, length] of [
+    ["--legible", (LEGIBLE / SMALLEST) * width],
+    ["--legible-height", (LEGIBLE / SMALLEST) * height],
+    ["--large", LARGE * width],
+  ])
+    svg.style.setProperty(name, `${Math.ceil(length)}px`);
   svg.removeAttribute("width");
   svg.removeAttribute("height");
   svg.setAttribute("aria-hidden", "true");

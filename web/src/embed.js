@@ -12,7 +12,7 @@ import { element, inWords, settled } from "./dom.js";
 import { Drawings, grown, widest } from "./drawings.js";
 import { withUnit } from "./numbers.js";
 import { key } from "./sliders.js";
-import { State, changesOf } from "./state.js";
+import { REST, State, changesOf } from "./state.js";
 import { Strip, limitsQuestion } from "./strip.js";
 import { Verdict, verdictElements } from "./verdict.js";
 import { Engine, Newest, Turns, load } from "./workers.js";
@@ -95,10 +95,14 @@ class Live extends HTMLElement {
       slow.end(this);
     });
     this.#drawings = new Drawings(this.#pictures);
-    this.#strip = new Strip(this.#figure, (value) => {
-      this.#state.changes.set(key(this.#quantity), withUnit(value, this.#quantity.unit));
-      this.#look();
-    });
+    this.#strip = new Strip(
+      this.#figure,
+      (value) => {
+        this.#state.changes.set(key(this.#quantity), withUnit(value, this.#quantity.unit));
+        this.#look();
+      },
+      (words) => this.#verdict.near(words),
+    );
     this.#figure.append(this.#pictures, element("p", {}, this.#link));
     const styles = ["drawing.css", "style.css"].map((name) => element("link", { rel: "stylesheet", href: here(name) }));
     this.shadowRoot.prepend(...styles);
@@ -133,9 +137,17 @@ class Live extends HTMLElement {
   }
 
   #look() {
+    this.#want(false);
+    this.#thoroughly();
+  }
+
+  /** When values rest it is said, too, how much more friction would make it jam. */
+  #thoroughly = settled(() => this.#want(true), REST);
+
+  #want(margins) {
     this.#newest.want(
       () => ({
-        question: { ask: "look", ...this.#state.asked(), margins: false, held: this.#held, most: this.#most },
+        question: { ask: "look", ...this.#state.asked(), margins, held: this.#held, most: this.#most },
         options: { seconds: 10, progress: (done) => this.#verdict.progress(done) },
       }),
       (reply, question) => this.#took(reply, question),

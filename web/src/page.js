@@ -8,15 +8,13 @@ import { MapPanel } from "./map.js";
 import { MotionPanel } from "./motion.js";
 import { withUnit } from "./numbers.js";
 import { Sliders, key } from "./sliders.js";
-import { State, changesOf } from "./state.js";
+import { REST, State, changesOf } from "./state.js";
 import { Strip, along, eligibleOf, limitsQuestion, stripOf } from "./strip.js";
 import { Verdict } from "./verdict.js";
 import { Engine, Newest, Turns, load } from "./workers.js";
 
 /** A file larger than this is not read: no model is. */
 const LARGEST_FILE = 4 << 20;
-/** Without a change for this long (ms) what takes longer is computed, too. */
-const REST = 250;
 
 byId("loading").max = ENGINE_BYTES;
 /** The models to begin with. */
@@ -63,7 +61,11 @@ const verdict = new Verdict(document, () => {
 const drawings = new Drawings(byId("drawings"));
 const sliders = new Sliders(byId("sliders"), changed);
 const editor = new Editor(byId("editor"), settled(edited, 120));
-const strip = new Strip(byId("strip"), (value) => changed(varied(), withUnit(value, varied().unit)));
+const strip = new Strip(
+  byId("strip"),
+  (value) => changed(varied(), withUnit(value, varied().unit)),
+  (words) => verdict.near(words),
+);
 const map = new MapPanel(byId("panel-map"), {
   ask: (question, axes) => slowly({ ...question, ...state.asked(...axes) }),
   move: (moves) => changedAll(moves.map(([quantity, value]) => [quantity, withUnit(value, quantity.unit)])),
@@ -431,10 +433,11 @@ function showStrip(asked = state.changes) {
 }
 
 /** The question that the strip answers, and what to do. */
-const invitation = ({ kind, name, meaning, is_friction }) =>
-  `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} the ${
-    kind === "position" ? `position ${name}` : meaning ? `${meaning} (${name})` : name
-  }.`;
+function invitation({ kind, name, meaning, is_friction }) {
+  const what = [is_friction ? "the friction" : kind === "position" ? "the position" : "", name].filter(Boolean).join(" ");
+  const means = kind === "parameter" && meaning ? ` (${meaning})` : "";
+  return `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} ${what}${means}.`;
+}
 
 /** Asks where each mode exists, unless that is known: it does not depend on the value that is varied. */
 const askLimits = settled(async () => {

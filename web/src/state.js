@@ -1,5 +1,8 @@
 // The state of the page: the model, what is changed in it, and what is looked at; and its address.
 
+/** Without a change for this long (ms) what takes longer is computed, too. */
+export const REST = 250;
+
 /** What a setting is on the command line. */
 const OPTIONS = { parameter: "--set", position: "--at", rate: "--rate" };
 const KEYS = { parameter: "set", position: "at", rate: "rate" };

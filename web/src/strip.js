@@ -38,6 +38,28 @@ export const limitsQuestion = (state, quantity) => {
 
 const signs = (pattern) => [...pattern].join(" ").replaceAll("-", "−");
 
+/** So near to values without a solution, as a part of the strip, is said. */
+const NEAR = 0.1;
+/** How wide a letter is at most, on average. */
+const LETTER = 7.5;
+
+/** How many solutions a stretch has, for its style, and in words. */
+const kindOf = ({ solutions, continuum }) => (continuum ? "many" : Math.min(solutions, 3));
+const inNumber = ({ solutions, continuum }) =>
+  continuum
+    ? "infinitely many"
+    : solutions === 1
+      ? "1 solution"
+      : solutions === 0
+        ? "no solution"
+        : `${solutions} solutions`;
+
+/** What exists along the strip, and what each row of it shows: a mode, or how it starts where contacts are at rest. */
+const rowsOf = (report) => [
+  ...report.modes.map(({ pattern, preload_gap: isGap, from, to }) => ({ name: signs(pattern), isGap, from, to })),
+  ...report.counts.flatMap(({ from, to, starts = [] }) => starts.map((words) => ({ words, name: words, from, to }))),
+];
+
 export class Strip {
   #svg = shape("svg", { class: "strip", "aria-hidden": "true" });
   #slider;
@@ -51,9 +73,15 @@ export class Strip {
   #rows = 1;
   /** Kept: to ask the browser for it takes a new layout of the whole page. */
   #width = 600;
+  #near;
+  #isNear = "";
 
-  /** `change(value)`: the value was dragged, in the unit of the quantity. */
-  constructor(place, change) {
+  /**
+   * `change(value)`: the value was dragged, in the unit of the quantity; `near(words)`: it is near to values without a solution, or
+   * not any more, where the words are empty.
+   */
+  constructor(place, change, near) {
+    this.#near = near;
     this.#slider = element("input", { type: "range", class: "strip-slider" });
     const follow = withNextFrame((value) => this.#mark(value));
     this.#slider.addEventListener("input", () => {
@@ -155,13 +183,44 @@ export class Strip {
       "aria-valuetext",
       `${withUnit(value, this.#quantity.unit)}; ${countAt(this.#report, value * this.#quantity.scale)}`,
     );
+    const words = this.#edgeNear(value);
+    if (words !== this.#isNear) {
+      this.#isNear = words;
+      this.#near(words);
+    }
+  }
+
+  /** Words for the nearest value without a solution, if that is near and this one has one. */
+  #edgeNear(value) {
+    const { name, from, to } = this.#vary;
+    const { unit, scale } = this.#quantity;
+    const counts = this.#report?.counts ?? [];
+    const hasNone = (count) => kindOf(count) === 0;
+    const here = counts.find((count) => count.from <= value * scale && value * scale <= count.to);
+    if (!here || hasNone(here)) return "";
+    const edges = counts
+      .filter(hasNone)
+      .map((count) => (count.from > value * scale ? ["from", count.from] : ["up to", count.to]))
+      .map(([side, end]) => ({ side, end: end / scale, far: Math.abs(end / scale - value) }))
+      .sort((one, other) => one.far - other.far);
+    const [edge] = edges;
+    if (!edge || edge.far > NEAR * (to - from)) return "";
+    return `Near its limit: no solution ${edge.side} ${name} = ${withUnit(edge.end, unit)}.`;
+  }
+
+  /** Words on a stretch of a row, as far as there is space for them. */
+  #beside(words, from, to, y) {
+    const space = Math.floor((this.#width - RIGHT - LEFT) / LETTER);
+    const text = words.length > space ? `${words.slice(0, space - 1)}…` : words;
+    const isLeft = from + LETTER * text.length < this.#width - RIGHT;
+    return isLeft ? label("start-text", from + 6, y, "start", text) : label("start-text", to - 6, y, "end", text);
   }
 
   #draw() {
     if (!this.#vary) return;
-    const modes = this.#report?.modes ?? [];
-    const patterns = [...new Set(modes.map((mode) => mode.pattern))];
-    this.#rows = Math.max(this.#rows, patterns.length);
+    const shown = this.#report ? rowsOf(this.#report) : [];
+    const rows = [...new Set(shown.map(({ name }) => name))];
+    this.#rows = Math.max(this.#rows, rows.length);
     const bottom = TOP + ROW * this.#rows;
     const height = bottom + COUNTS + 24;
     const width = this.#width;
@@ -169,8 +228,9 @@ export class Strip {
     this.#svg.setAttribute("height", height);
     this.#svg.replaceChildren(hatching());
     const of = (value) => this.#place(value / this.#quantity.scale);
-    for (const { from, to, solutions } of this.#report?.counts ?? []) {
-      if (solutions === 0)
+    for (const count of this.#report?.counts ?? []) {
+      const { from, to } = count;
+      if (kindOf(count) === 0)
         this.#svg.append(
           shape("rect", {
             class: "none",
@@ -192,37 +252,41 @@ export class Strip {
       if (of(to) - of(from) > 90)
         this.#svg.append(label("count-text quiet", (of(from) + of(to)) / 2, bottom + 20, "middle", "no answer"));
     }
-    for (const mode of modes) {
-      const row = patterns.indexOf(mode.pattern);
+    for (const { name, words, isGap, ...ends } of shown) {
+      const row = rows.indexOf(name);
       const [from, to] = [
-        mode.from ?? this.#vary.from * this.#quantity.scale,
-        mode.to ?? this.#vary.to * this.#quantity.scale,
+        ends.from ?? this.#vary.from * this.#quantity.scale,
+        ends.to ?? this.#vary.to * this.#quantity.scale,
       ].map(of);
-      this.#svg.append(
-        shape("rect", {
-          class: `mode series-${row % COLOURS}${mode.preload_gap ? " gap" : ""}`,
-          x: from,
-          y: TOP + ROW * row + 4,
-          width: Math.max(2, to - from),
-          height: ROW - 8,
-          rx: 3,
-        }),
-      );
+      const bar = {
+        class: `mode series-${row % COLOURS}${isGap ? " gap" : ""}${words ? " start" : ""}`,
+        x: from,
+        y: TOP + ROW * row + 4,
+        width: Math.max(2, to - from),
+        height: ROW - 8,
+        rx: 3,
+      };
+      this.#svg.append(shape("rect", bar, ...(words ? [shape("title", {}, words)] : [])));
+      if (words) this.#svg.append(this.#beside(words, from, to, TOP + ROW * (row + 0.5) + 5));
     }
-    patterns.forEach((pattern, row) =>
-      this.#svg.append(label("pattern", LEFT - 8, TOP + ROW * (row + 0.5) + 5, "end", signs(pattern))),
-    );
-    for (const { from, to, solutions } of this.#report?.counts ?? []) {
-      const [start, end] = [of(from), of(to)];
+    rows.forEach((name, row) => {
+      const isMode = shown.some((one) => one.name === name && !one.words);
+      const text = isMode ? name : row === 0 ? "starts" : "";
+      this.#svg.append(label("pattern", LEFT - 8, TOP + ROW * (row + 0.5) + 5, "end", text));
+    });
+    for (const count of this.#report?.counts ?? []) {
+      const [start, end] = [count.from, count.to].map(of);
       this.#svg.append(
         shape("rect", {
-          class: `count count-${Math.min(solutions, 3)}`,
+          class: `count count-${kindOf(count)}`,
           x: start,
           y: bottom + 4,
           width: Math.max(1, end - start - 1),
           height: COUNTS - 12,
         }),
       );
+      const words = inNumber(count);
+      const short = count.continuum ? "∞" : String(count.solutions);
       if (end - start > 16)
         this.#svg.append(
           label(
@@ -230,13 +294,7 @@ export class Strip {
             (start + end) / 2,
             bottom + 20,
             "middle",
-            end - start > 90
-              ? solutions === 1
-                ? "1 solution"
-                : solutions === 0
-                  ? "no solution"
-                  : `${solutions} solutions`
-              : String(solutions),
+            end - start > LETTER * words.length ? words : short,
           ),
         );
     }
@@ -275,21 +333,14 @@ function hatching() {
 /** How many solutions there are at a value (SI units), in words. */
 function countAt(report, value) {
   const found = report?.counts.find(({ from, to }) => from <= value && value <= to);
-  return !found
-    ? ""
-    : found.solutions === 1
-      ? "one solution"
-      : found.solutions === 0
-        ? "no solution"
-        : `${found.solutions} solutions`;
+  return found ? inNumber(found) : "";
 }
 
 /** The strip for those who do not see it. */
 function modesInWords(report, { unit, scale }, { name }) {
   const value = (si) => withUnit(si / scale, unit);
-  const counts = report.counts.map(
-    ({ from, to, solutions }) =>
-      `from ${value(from)} to ${value(to)} ${solutions === 0 ? "no solution" : solutions === 1 ? "one solution" : `${solutions} solutions`}`,
+  const counts = report.counts.map((count) =>
+    [`from ${value(count.from)} to ${value(count.to)} ${inNumber(count)}`, ...(count.starts ?? [])].join(", "),
   );
   const without = report.without_mode_problem.map(
     ({ from, to, reason }) => `from ${value(from)} to ${value(to)} there is no answer: ${reason}`,

@@ -4,7 +4,7 @@ import { element, say } from "./dom.js";
 import { Ended } from "./workers.js";
 
 /** What is seen at a glance, for each status. */
-const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", infinitely_many: "∞" };
+const SIGNS = { none: "✕", one: "✓", several: "⚠", unknown: "?", continuum: "∞" };
 /** So many faults are listed. */
 const MOST = 50;
 
@@ -14,7 +14,7 @@ export const verdictElements = () => [
     "div",
     { id: "verdict-box", "data-status": "working" },
     element("h2", {}, element("span", { id: "verdict", role: "status" })),
-    element("p", { id: "certainty" }),
+    element("p", {}, element("span", { id: "certainty" }), " ", element("span", { id: "edge" })),
     element("ul", { id: "reasons" }),
   ),
   element(
@@ -32,6 +32,7 @@ export class Verdict {
   #box;
   #words;
   #certainty;
+  #edge;
   #reasons;
   #work;
   #bar;
@@ -42,10 +43,11 @@ export class Verdict {
 
   /** Within a document or an element; `stop()`: what takes long is ended. */
   constructor(place, stop) {
-    const [box, words, certainty, reasons, work, bar, counted, button] = [
+    const [box, words, certainty, edge, reasons, work, bar, counted, button] = [
       "verdict-box",
       "verdict",
       "certainty",
+      "edge",
       "reasons",
       "work",
       "progress",
@@ -55,6 +57,7 @@ export class Verdict {
     this.#box = box;
     this.#words = words;
     this.#certainty = certainty;
+    this.#edge = edge;
     this.#reasons = reasons;
     this.#work = work;
     this.#bar = bar;
@@ -91,6 +94,12 @@ export class Verdict {
     say(this.#words, text);
     say(this.#certainty, certainty);
     if (reasons.length + this.#reasons.children.length > 0) this.#reasons.replaceChildren(...reasons);
+  }
+
+  /** The present value is near to values without a solution: words for it, or none. */
+  near(words) {
+    this.#box.toggleAttribute("data-near", words !== "");
+    say(this.#edge, words);
   }
 
   /** The engine has not come yet. */

@@ -1,7 +1,11 @@
 // Live figures in other pages, as their readers use them.
 
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { resolve } from "node:path";
 import { test } from "node:test";
+import { start } from "../src/engine.js";
+import { engine, top } from "../tools/places.js";
 import { close, dragWithFinger, dragWithMouse, marked, setUp, skip } from "./browser.js";
 
 const set = setUp();
@@ -28,6 +32,16 @@ const limits = (page) => inFigure(page, ".strip .count").first().waitFor({ state
 /** H. J. Klepp (2002), section 7: without preload two solutions above mu_1 = 0.45265396; the file has 0.5. */
 const KLEPP = 'model="klepp-2002" set="F_20=0" vary="mu_1=0..0.8"';
 
+/** The verdict of the engine on that figure, with margins. */
+const ask = await start(await WebAssembly.compile(readFileSync(engine)));
+const thorough = () => {
+  const text = readFileSync(resolve(top, "models/klepp-2002.toml"), "utf8");
+  const settings = [{ kind: "parameter", name: "F_20", value: "0" }];
+  const words = (margins) => ask({ ask: "look", text, settings, margins }).answer.answer.words;
+  assert.notEqual(words(true), words(false));
+  return words(true);
+};
+
 for (const [name, options, drag] of [
   ["the mouse", {}, dragWithMouse],
   ["a finger", { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true }, dragWithFinger],
@@ -38,6 +52,8 @@ for (const [name, options, drag] of [
     assert.ok(!(await page.locator("#static").isVisible()));
     await limits(page);
     assert.match(await inFigure(page, "#verdict-box").textContent(), /2 solutions/);
+    // Margins come when values rest.
+    await inFigure(page, "#verdict").filter({ hasText: thorough() }).waitFor({ timeout: 30_000 });
     const slider = inFigure(page, ".strip-slider");
     const top = async () => (await slider.boundingBox()).y + (await page.evaluate(() => scrollY));
     const before = await top();

@@ -33,7 +33,7 @@ for (const [name, options, drawn] of [
     }
     assert.match(
       await page.textContent("#invitation"),
-      /Does it jam\? Drag the friction coefficient of the guide \(mu\)/,
+      /Does it jam\? Drag the friction mu \(friction coefficient of the guide\)/,
     );
     await close(page);
   });
@@ -164,7 +164,7 @@ test("drawings are seen whole on a phone, moving and jammed", { skip }, async ()
 
 test("texts of drawings have at least 11 pixels on a phone", { skip }, async () => {
   const page = await set.open("", PHONE);
-  for (const name of ["drawer", "klepp-2002", "quick-return", "drawer-on-two-rails"]) {
+  for (const name of gallery) {
     await choose(page, name);
     const sizes = await page.evaluate(() =>
       [...document.querySelectorAll("#drawings svg, .strip")].flatMap((svg) =>
@@ -173,7 +173,7 @@ test("texts of drawings have at least 11 pixels on a phone", { skip }, async () 
         ),
       ),
     );
-    assert.ok(sizes.length > 5 && Math.min(...sizes) >= 11 - 1e-6, `${name}: ${Math.min(...sizes)}`);
+    assert.ok(sizes.length > 3 && Math.min(...sizes) >= 11 - 1e-6, `${name}: ${Math.min(...sizes)}`);
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 391);
   }
   await close(page);

@@ -67,6 +67,47 @@ test("every model of the gallery is shown, and nothing is complained of", { skip
 });
 
 /** L / (2 a) = 2/3 (book, chapter Limits). */
+test("near values without a solution the verdict says so", { skip }, async () => {
+  const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
+  await limits(page);
+  const near = () =>
+    page.evaluate(() => [
+      document.getElementById("verdict-box").hasAttribute("data-near"),
+      document.getElementById("edge").textContent,
+    ]);
+  for (const [mu, words] of [
+    ["0.3", ""],
+    ["0.64", "Near its limit: no solution from mu = 0.666667."],
+    ["0.8", ""],
+    ["0.5", ""],
+  ]) {
+    await page.locator(".strip-slider").fill(mu);
+    await verdict(page, mu === "0.8" ? "none" : "one");
+    await page.waitForFunction((text) => document.querySelector(".present text").textContent === text, mu);
+    assert.deepEqual(await near(), [words !== "", words], mu);
+  }
+  await close(page);
+});
+
+/** At rest the ladder has four forces and three equations, half-way up and lower. */
+test("the strip shows how contacts at rest start, and does not take a continuum for a jam", { skip }, async () => {
+  const page = await set.open("#model=gallery:ladder&vary=parameter~climbed~0.1~1");
+  await limits(page);
+  const seen = await page.evaluate(() => ({
+    none: document.querySelectorAll(".strip .count-0").length,
+    many: document.querySelectorAll(".strip .count-many").length,
+    starts: [...document.querySelectorAll(".strip .start title")].map(({ textContent }) => textContent),
+    words: document.querySelector(".strip-box .words").textContent,
+  }));
+  assert.deepEqual([seen.none, seen.many, seen.starts.length], [0, 1, 1]);
+  await verdict(page, "continuum");
+  assert.match(await page.textContent("#verdict"), /^∞ /);
+  assert.match(seen.starts[0], /foot: .*head: /);
+  assert.match(seen.words, /from 0.1 to 0.931\d+ infinitely many; from 0.931\d+ to 1 1 solution, foot: /);
+  await close(page);
+});
+
+/** L / (2 a) = 2/3 (book, chapter Limits). */
 test("the drawer jams where its limit says", { skip }, async () => {
   const page = await set.open("#model=gallery:drawer&vary=parameter~mu~0~1");
   await limits(page);
@@ -77,7 +118,7 @@ test("the drawer jams where its limit says", { skip }, async () => {
   assert.match(await page.textContent("#verdict"), /It jams/);
   assert.match(
     await page.textContent(".strip-box .words"),
-    /from 0 to 0.666667 one solution; from 0.666667 to 1 no solution/,
+    /from 0 to 0.666667 1 solution; from 0.666667 to 1 no solution/,
   );
   await close(page);
 });

@@ -163,7 +163,11 @@ pub(crate) fn vary(
 /// A quantity that is varied between a pair of ends.
 fn vary_between(name: &str, range: Option<&Bound<'_, PyAny>>) -> PyResult<Vary> {
     let Some(range) = range else { return Ok(Vary::usual(name)) };
-    let wanted = || PyTypeError::new_err(format!("the range of {name} must be a pair of its ends"));
+    let wanted = || {
+        PyTypeError::new_err(format!(
+            "the range of {name} must be a pair of its ends, such as {name}=(0, 1); nothing else has this name"
+        ))
+    };
     let ends: Vec<Bound<'_, PyAny>> = range.extract().map_err(|_| wanted())?;
     let [from, to] = &*ends else { return Err(wanted()) };
     let end = |which: &str, given| value(&format!("the {which} of {name}"), given);
