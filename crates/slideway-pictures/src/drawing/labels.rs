@@ -68,14 +68,13 @@ thread_local! {
 pub(super) fn labelled(bare: Scene, labels: Vec<Label>, within: Option<Bounds>) -> Scene {
     LAST.with_borrow_mut(|last| {
         let is_same = |one: &Labelled| one.within == within && one.labels == labels && one.bare == bare;
-        let known = match last.iter().position(is_same) {
-            Some(at) => last.remove(at),
-            None => {
-                let mut scene = bare.clone();
-                place(&mut scene, labels.clone(), within);
-                last.drain(..last.len().saturating_sub(KNOWN - 1));
-                Labelled { bare, labels, within, scene }
-            }
+        let known = if let Some(at) = last.iter().position(is_same) {
+            last.remove(at)
+        } else {
+            let mut scene = bare.clone();
+            place(&mut scene, labels.clone(), within);
+            last.drain(..last.len().saturating_sub(KNOWN - 1));
+            Labelled { bare, labels, within, scene }
         };
         let scene = known.scene.clone();
         last.push(known);
