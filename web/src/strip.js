@@ -39,7 +39,7 @@ export const limitsQuestion = (state, quantity) => {
 const signs = (pattern) => [...pattern].join(" ").replaceAll("-", "−");
 
 /** So near to values without a solution, as a part of the strip, is said. */
-const NEAR = 0.1;
+const NEAR = 0.05;
 /** How wide a letter is at most, on average. */
 const LETTER = 7.5;
 

@@ -3,10 +3,11 @@
 use super::obstacles::{Obstacle, Obstacles};
 use super::outline::{nearest_on_line, unit};
 use super::scene::{ASCENT, Anchor, Bounds, Class, DESCENT, Point, Scene, Shape, Text};
+use std::cell::RefCell;
 use std::f64::consts::TAU;
 
 /// A label that waits for its place.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Label {
     pub(super) class: Class,
     pub(super) text: String,
@@ -46,9 +47,42 @@ const MARGIN: f64 = 2.0;
 /// Distance of the places of a line that labels keep clear of.
 const STEP: f64 = 3.0;
 
-/// Gives every label its place, in their order; with bounds those that find no place within them are left
-/// out.
-pub(super) fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
+/// A scene with its labels, and what it was made of.
+struct Labelled {
+    bare: Scene,
+    labels: Vec<Label>,
+    within: Option<Bounds>,
+    scene: Scene,
+}
+
+/// So many scenes are known.
+const KNOWN: usize = 8;
+
+thread_local! {
+    /// The scenes that were labelled last, the latest at the end: while friction changes, the mechanism itself looks the same.
+    static LAST: RefCell<Vec<Labelled>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Returns the scene in which every label has its place, in their order; with bounds those that find no place within them
+/// are left out. Places are searched once for the same scene.
+pub(super) fn labelled(bare: Scene, labels: Vec<Label>, within: Option<Bounds>) -> Scene {
+    LAST.with_borrow_mut(|last| {
+        let is_same = |one: &Labelled| one.within == within && one.labels == labels && one.bare == bare;
+        let known = if let Some(at) = last.iter().position(is_same) {
+            last.remove(at)
+        } else {
+            let mut scene = bare.clone();
+            place(&mut scene, labels.clone(), within);
+            last.drain(..last.len().saturating_sub(KNOWN - 1));
+            Labelled { bare, labels, within, scene }
+        };
+        let scene = known.scene.clone();
+        last.push(known);
+        scene
+    })
+}
+
+fn place(scene: &mut Scene, labels: Vec<Label>, within: Option<Bounds>) {
     let mut all = obstacles(scene);
     all.extend(outlines(scene));
     let obstacles = Obstacles::new(all);
@@ -88,16 +122,19 @@ impl Room {
     /// The cheapest free place.
     fn best(&self, label: &Label) -> Option<Bounds> {
         let half = half_size(label);
+        let directions: [Point; DIRECTIONS] = std::array::from_fn(|index| direction(label.towards, index));
         let mut best: Option<(f64, Bounds)> = None;
         for distance in DISTANCES {
-            for index in 0..DIRECTIONS {
-                let direction = direction(label.towards, index);
+            for direction in directions {
                 let turn = 1.0 - direction.dot(&label.towards);
                 for shift in SHIFTS {
+                    let far = 0.35 * distance + 3.0 * turn + 2.0 * shift.abs();
+                    if best.is_some_and(|(least, _)| far >= least) {
+                        continue;
+                    }
                     let aside = Point::new(shift * half.x, 0.0);
                     let bounds = beside(label.anchor, direction, distance, half).shifted(aside);
-                    let far = 0.35 * distance + 3.0 * turn + 2.0 * shift.abs();
-                    if best.is_some_and(|(least, _)| far >= least) || !self.is_free(&bounds) {
+                    if !self.is_free(&bounds) {
                         continue;
                     }
                     let least = best.map_or(f64::INFINITY, |(least, _)| least);
@@ -145,7 +182,11 @@ impl Room {
     fn leader(&self, label: &Label, bounds: &Bounds) -> Option<[Point; 2]> {
         let own = label.named();
         let distance = distance(bounds, own);
-        let is_nearer = |other: &[Point; 2]| *other != own && self::distance(bounds, *other) < distance;
+        let is_nearer = |other: &[Point; 2]| {
+            *other != own
+                && least_distance(bounds, *other) < distance
+                && self::distance(bounds, *other) < distance
+        };
         let link = link(label, bounds);
         ((link[1] - link[0]).norm() > LEADER || self.named.iter().any(is_nearer)).then_some(link)
     }
@@ -195,6 +236,13 @@ fn distance(bounds: &Bounds, line: [Point; 2]) -> f64 {
     let from_corners = corners.into_iter().map(|corner| nearest_on_line(corner, line).0);
     let from_ends = line.into_iter().map(|end| (end - end.sup(&least).inf(&greatest)).norm());
     from_corners.chain(from_ends).fold(f64::INFINITY, f64::min)
+}
+
+/// A lower bound of that distance, rounding included, at little cost: the distance of the boxes around both.
+fn least_distance(bounds: &Bounds, [from, to]: [Point; 2]) -> f64 {
+    let around = Bounds { least: from.inf(&to), greatest: from.sup(&to) };
+    let apart = (around.least - bounds.greatest).sup(&(bounds.least - around.greatest));
+    (1.0 - 1e-9) * apart.sup(&Point::zeros()).norm()
 }
 
 /// The number of labels through which a line runs.
@@ -276,6 +324,32 @@ fn along(corners: &[Point], weight: f64, places: &mut Vec<Obstacle>) {
         while step <= steps {
             places.push((pair[0] + between * (step / steps), weight));
             step += 1.0;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As if places were searched each time, of more scenes than are known.
+    #[test]
+    fn a_known_scene_is_labelled_as_a_new_one() {
+        for index in (0..2 * KNOWN).chain([0, 1, 0, KNOWN, 2 * KNOWN - 1]) {
+            let end = Point::new(10.0 * (index / 3) as f64, 0.0);
+            let mut bare = Scene::default();
+            bare.add(Class::Body, Shape::Line(vec![Point::zeros(), end]));
+            let label = Label {
+                class: Class::Words,
+                text: "word ".repeat(index % 3 + 1),
+                size: 14.0,
+                anchor: Point::zeros(),
+                reach: Point::zeros(),
+                towards: Point::x(),
+            };
+            let mut expected = bare.clone();
+            place(&mut expected, vec![label.clone()], None);
+            assert_eq!(labelled(bare, vec![label], None), expected);
         }
     }
 }

@@ -236,9 +236,8 @@ pub fn scene(
     if options.velocities {
         painter.velocities();
     }
-    let Painter { mut scene, labels, .. } = painter;
-    labels::place(&mut scene, labels, options.within);
-    scene
+    let Painter { scene, labels, .. } = painter;
+    labels::labelled(scene, labels, options.within)
 }
 
 impl SceneOptions {
