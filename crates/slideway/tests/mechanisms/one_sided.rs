@@ -99,7 +99,13 @@ fn is(solution: &Solution, system: &System, state: &State, tolerance: f64) -> bo
 }
 
 /// Holds a report to be the complete list of these states.
-fn assert_states(report: &SolveReport, system: &System, states: &[State], tolerance: f64, name: &str) {
+pub(crate) fn assert_states(
+    report: &SolveReport,
+    system: &System,
+    states: &[State],
+    tolerance: f64,
+    name: &str,
+) {
     assert_eq!(report.complete, Proof::Proven, "{name}: {:?}", report.open);
     assert_eq!(report.solutions.len(), states.len(), "{name}\n{}", system.text());
     for state in states {
