@@ -3,7 +3,7 @@
 
 use crate::answers::{assert_close, contact, mode, only, parameters, report_on, report_with, try_report_on};
 use crate::one_sided_systems::{Contact, State, System, random};
-use crate::random_mechanisms::cases;
+use crate::random_mechanisms::many;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use rstest::rstest;
@@ -164,7 +164,7 @@ fn the_reference_has_these_states() {
 }
 
 proptest! {
-    #![proptest_config(cases(300))]
+    #![proptest_config(many(400))]
     /// One or two bodies with two to four contacts, of which most may lift off: none, one and several states.
     #[test]
     fn random_systems_have_the_states_of_the_descriptor_form(

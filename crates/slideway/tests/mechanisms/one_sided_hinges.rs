@@ -8,7 +8,7 @@
 use crate::answers::{report_on, report_with};
 use crate::one_sided::{assert_states, fault};
 use crate::one_sided_systems::{Hinge, State, System, amax, random};
-use crate::random_mechanisms::cases;
+use crate::random_mechanisms::many;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix4, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -239,7 +239,7 @@ fn rough(numbers: &[f64], [hinged, grounded, driven]: [bool; 3], contacts: usize
 }
 
 proptest! {
-    #![proptest_config(cases(200))]
+    #![proptest_config(many(200))]
     /// Two bodies with one or two hinges with friction and one to three contacts: none, one and several states.
     #[test]
     fn random_systems_have_the_states_of_the_descriptor_form(
@@ -291,7 +291,7 @@ fn a_latch_locks_where_the_force_on_its_nose_touches_the_friction_circle() {
     let report = limits(&model, &LimitsOptions::new("mu=0..1".parse().unwrap())).unwrap();
     assert_eq!(report.counts[0].solutions, 1);
     assert!((report.counts[0].to - locks_at(0.005)).abs() < 1e-8, "{:?}", report.counts);
-    let report = limits(&model, &LimitsOptions::new("r=1mm..15mm".parse().unwrap())).unwrap();
+    let report = limits(&model, &LimitsOptions::new("r=1mm..30mm".parse().unwrap())).unwrap();
     assert!((locks_at(report.counts[0].to) - 0.3).abs() < 1e-8, "{:?}", report.counts);
 }
 

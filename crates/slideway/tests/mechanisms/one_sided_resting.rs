@@ -6,7 +6,7 @@
 
 use crate::answers::{contact, report_on};
 use crate::one_sided_systems::{Contact, System, random};
-use crate::random_mechanisms::cases;
+use crate::random_mechanisms::{cases, many};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -319,13 +319,8 @@ fn is_at_rest(system: &System) -> bool {
     system.drives.is_empty() && system.contacts.iter().all(rests)
 }
 
-/// So many random systems: those of the suite, or as many as `SLIDEWAY_RESTING` says.
-fn count() -> u32 {
-    std::env::var("SLIDEWAY_RESTING").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
-}
-
 proptest! {
-    #![proptest_config(cases(count()))]
+    #![proptest_config(many(400))]
 
     /// One or two bodies whose corners are at rest, slide or are pins in slots, which slide, are at rest or smooth.
     #[test]
