@@ -233,7 +233,7 @@ fn rough(numbers: &[f64], [hinged, grounded, driven]: [bool; 3], contacts: usize
         system.hinges.push(hinge("body_0", "body_1", 0));
     }
     if grounded || !hinged {
-        system.hinges.push(hinge("ground", "body_0", 3));
+        system.hinges.push(hinge("ground", "body_1", 3));
     }
     system.with_rates(numbers[6..].iter().map(|number| 2.0 * number))
 }
