@@ -67,7 +67,7 @@ impl Springs<'_> {
         DVector::from_vec(all)
     }
 
-    fn of_columns(&self, columns: Vec<DVector<f64>>) -> DMatrix<f64> {
+    fn of_columns(&self, columns: &[DVector<f64>]) -> DMatrix<f64> {
         let parts: Vec<DVector<f64>> = columns.iter().map(|column| self.part(column)).collect();
         DMatrix::from_columns(&parts)
     }
@@ -75,7 +75,7 @@ impl Springs<'_> {
     /// `[Y 0; -B I]`
     fn inertia(&self) -> DMatrix<f64> {
         let contacts = self.left.kept.len();
-        let mut inertia = self.of_columns(self.left.equations.answers_to_gaps(&[]));
+        let mut inertia = self.of_columns(&self.left.equations.answers_to_gaps(&[]));
         inertia.rows_mut(contacts, inertia.nrows() - contacts).neg_mut();
         let size = inertia.nrows();
         let mut inertia = inertia.resize_horizontally(size, 0.0);
@@ -103,7 +103,7 @@ impl Springs<'_> {
             -&influence.columns[k][face_of(states[k])]
         };
         let columns = (0..states.len()).map(of_contact).chain(self.stuck().map(of_stuck));
-        let mut mode = self.of_columns(columns.collect());
+        let mut mode = self.of_columns(&columns.collect::<Vec<_>>());
         // N stands on the left of its row, what friction adds on the right.
         mode.rows_mut(0, states.len()).neg_mut();
         (0..states.len()).for_each(|k| mode[(k, k)] += 1.0);
