@@ -80,6 +80,19 @@ fn no_command_writes_over_its_input() {
     }
 }
 
+/// Of contacts at rest there is no mode problem: the answer says so, and nothing is written.
+#[test]
+fn contacts_at_rest_have_no_proof_file() {
+    let folder = folder();
+    fs::copy(top().join("models/ladder.toml"), folder.path().join("ladder.toml")).unwrap();
+    let before = contents(folder.path());
+    let refused = run(folder.path(), "solve ladder.toml --proof p");
+    assert_eq!(refused.code, 3, "{}", refused.stderr);
+    let words = refused.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(words.contains("the states of foot, head are no mode problem"), "{words}");
+    assert_eq!(contents(folder.path()), before);
+}
+
 /// A hard link, a link, and `FILE.json` of a proof are the input, and so is a standard stream that is that file.
 #[test]
 fn an_input_is_known_by_any_of_its_names() {

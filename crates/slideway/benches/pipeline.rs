@@ -87,6 +87,13 @@ fn whole_solve(bencher: Bencher<'_, '_>, name: &str) {
     bencher.bench_local(|| solve(&model));
 }
 
+/// Contacts that may lift off, beside the drawer with which theirs is compared.
+#[divan::bench(args = ["drawer", "rod-on-floor", "peg-in-hole"])]
+fn solve_what_may_lift_off(bencher: Bencher<'_, '_>, name: &str) {
+    let model = model(name);
+    bencher.bench_local(|| solve(&model));
+}
+
 /// Mechanisms with friction in all hinges.
 const HINGED: [&str; 6] =
     ["bell-crank", "four-bar", "over-centre-clamp", "quick-return", "slider-crank-with-pins", "toggle-press"];

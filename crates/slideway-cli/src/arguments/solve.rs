@@ -32,7 +32,8 @@ pub(crate) struct SolveArguments {
     pub(crate) format: Format,
 
     /// Also write a proof that there are no other solutions, for the numbers of the mode problem in floating point.
-    /// They are written to FILE.json; reference/check_proof.py checks the proof with them.
+    /// They are written to FILE.json; reference/check_proof.py checks the proof with them. None is
+    /// written of contacts at rest and of hinges with friction.
     #[arg(long, value_name = "FILE")]
     pub(crate) proof: Option<PathBuf>,
 

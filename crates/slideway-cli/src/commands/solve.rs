@@ -9,7 +9,7 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use crate::watch::{Watch, outcome};
 use slideway::Report;
-use slideway::fault::{FaultKind, Faults};
+use slideway::fault::{FaultKind, Faults, NoSliding};
 use slideway::solve::{SolveOptions, exact_mode_problem, solve_with};
 
 /// Finds and writes all solutions of a model.
@@ -46,12 +46,21 @@ pub(crate) fn solve(arguments: &SolveArguments, output: &Output) -> Result<Outco
 
 /// The failure of a problem of which no proof is written.
 fn without_proof(faults: Faults, input: &Input) -> Failure {
-    let hinges = faults.sorted().iter().find_map(|fault| match &fault.kind {
-        FaultKind::FrictionInHinges { hinges } => Some(hinges.join(", ")),
+    let reason = faults.sorted().iter().find_map(|fault| match &fault.kind {
+        FaultKind::FrictionInHinges { hinges } => {
+            Some(format!("{} are hinges with friction", hinges.join(", ")))
+        }
+        FaultKind::ZeroSlidingVelocity { contacts, why: NoSliding::Starts | NoSliding::Stands } => {
+            Some(format!(
+                "friction of what does not slide is free within its limit, so that the states of {} are no mode problem; \
+                 without `--proof` they are listed, in floating point",
+                contacts.join(", ")
+            ))
+        }
         _ => None,
     });
-    match hinges {
-        Some(hinges) => Failure::NoProof { reason: format!("{hinges} are hinges with friction") },
+    match reason {
+        Some(reason) => Failure::NoProof { reason },
         None => input.refused(faults),
     }
 }

@@ -57,6 +57,19 @@ impl Inertia {
         Some(Self { matrix, left, right, massless, motions: [motions, tests], lengths })
     }
 
+    /// That of gaps of which none is without inertia.
+    pub(super) fn of_matrix(matrix: DMatrix<f64>) -> Self {
+        let none = || [DMatrix::zeros(matrix.nrows(), 0), DMatrix::zeros(matrix.nrows(), 0)];
+        Self {
+            left: matrix.clone(),
+            right: DMatrix::identity(matrix.nrows(), matrix.nrows()),
+            massless: none(),
+            motions: none(),
+            lengths: Vec::new(),
+            matrix,
+        }
+    }
+
     /// Number of gaps without inertia.
     pub(super) fn massless_gaps(&self) -> usize {
         self.massless[0].ncols()

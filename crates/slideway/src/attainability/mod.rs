@@ -111,6 +111,34 @@ impl ElasticJoints {
         Self { inertia, stiffness, given, has_hinges, shared }
     }
 
+    /// Those of a mechanism in which joints stick, with these matrices of the gaps and slips: what accelerations need, and the forces
+    /// without the friction of what slides. All are equally stiff.
+    pub(crate) fn with_sticking(
+        mechanism: &Mechanism,
+        equations: &KineticEquations,
+        matrix: DMatrix<f64>,
+        frictionless: DMatrix<f64>,
+    ) -> Self {
+        let stiffness = vec![1.0; matrix.nrows()];
+        let is_stable = |inertia: &Inertia| {
+            let spectrum = Pencil::new(inertia, frictionless, None)
+                .and_then(|pencil| pencil.spectrum(&stiffness, &equal_masses(inertia)));
+            spectrum.is_some_and(|spectrum| spectrum.stability == Stability::Attainable)
+        };
+        let inertia = if stiffness.len() > MOST_CONTACTS {
+            Err((
+                Verdict::NotComputed,
+                format!("more than {MOST_CONTACTS} normal forces and frictions that hold"),
+            ))
+        } else if !equations.massless_accelerations().is_empty() {
+            Err((Verdict::NotComputed, "bodies without mass move beside contacts that stick".to_owned()))
+        } else {
+            let inertia = Some(Inertia::of_matrix(matrix)).filter(is_stable);
+            inertia.ok_or_else(|| (Verdict::Undecided, reversed(mechanism)))
+        };
+        Self { inertia, stiffness, given: false, has_hinges: false, shared: None }
+    }
+
     /// The attainability of a solution with this matrix `C S`, or `I - H D`, and these states of the contacts, without what
     /// an unattainable one separates.
     pub(crate) fn of(&self, mode: DMatrix<f64>, states: &[ContactState]) -> Attainability {

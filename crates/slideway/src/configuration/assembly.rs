@@ -285,7 +285,6 @@ pub(super) fn singular_state(mechanism: &Mechanism, poses: &[Pose]) -> Fault {
 pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
     let mut faults = Faults::default();
     let length = || mechanism.units.of("m");
-    let at_end = AT_END * mechanism.size;
     for joint in &mechanism.joints {
         let JointKind::Slider(slider) = &joint.kind else { continue };
         let place = &joint.place;
@@ -298,9 +297,8 @@ pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuratio
             faults.push(Fault::new(kind, place.clone()));
         }
         faults.extend(penetration(mechanism, configuration, (joint, slider)));
-        let [lowest, highest] = slider.limits();
         if let Some([least, greatest]) = slider.travel
-            && !(lowest - at_end..=highest + at_end).contains(&displacement)
+            && !configuration.is_within_travel(mechanism, slider)
         {
             let (joint, unit) = (joint.name.to_string(), length());
             let kind = FaultKind::TravelExceeded { joint, displacement, least, greatest, unit };
@@ -310,15 +308,17 @@ pub(super) fn check_position(mechanism: &Mechanism, configuration: &Configuratio
     faults.or(())
 }
 
-/// What is said to be apart from its face must not be in it, nor on it without leaving it.
+/// What is said to be apart from its face must not be in it, nor on it without leaving it, but beside it.
 fn penetration(
     mechanism: &Mechanism,
     configuration: &Configuration,
     (joint, slider): (&Joint, &Slider),
 ) -> Option<Fault> {
     let at_face = AT_END * mechanism.size;
-    let [gap, rate] =
-        configuration.gaps(mechanism, slider).min_by(|one, other| one[0].total_cmp(&other[0]))?;
+    let apart = slider.apart.iter();
+    let apart = apart.filter(|contact| !configuration.is_beside_face(mechanism, slider, contact));
+    let gaps = apart.map(|contact| configuration.gap_at(mechanism, slider, contact));
+    let [gap, rate] = gaps.min_by(|one, other| one[0].total_cmp(&other[0]))?;
     if gap > at_face || (gap >= -at_face && rate > 0.0) {
         return None;
     }

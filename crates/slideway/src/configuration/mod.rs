@@ -7,7 +7,7 @@
 //! # Files
 //! `joint_equations.rs` has the equations and `curvature.rs` how they bend, `anchor.rs` proves how far the
 //! branch of a state can be followed in one step, `following.rs` goes from place to place, `follower.rs`
-//! finds one state after another and remembers what the last step has shown, `assembly.rs` closes the drawing
+//! finds one state after another and remembers what the last step has shown, `face.rs` tells what is beside its face, `assembly.rs` closes the drawing
 //! and says why a state cannot be had, `mobility.rs` counts freedoms,
 //! `motions.rs` has what moves with each coordinate, `standing.rs` finds what the drives keep at rest.
 
@@ -15,6 +15,7 @@ mod anchor;
 mod assembly;
 mod clearance;
 mod curvature;
+mod face;
 mod factors;
 mod follower;
 mod following;

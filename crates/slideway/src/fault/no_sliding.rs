@@ -21,7 +21,7 @@ pub enum NoSliding {
     Never,
     /// The drives keep it at rest while the rest moves.
     Stands,
-    /// It is at rest and may lift off, stick or begin to slide.
+    /// It is at rest and may stick or begin to slide, or it or another contact lift off.
     Starts,
 }
 
@@ -62,7 +62,7 @@ impl NoSliding {
                 hold(face)
             ),
             Self::Starts => format!(
-                "it may stick, begin to slide or lift off: `{}`, `drive`, `limits`, `sweep` and `map` list all of its states, if everything else with friction slides; {}",
+                "it may stick or begin to slide, or lift off: `{}`, `drive`, `limits`, `sweep` and `map` list all states, unless a hinge has friction, or a guided slider or a preload beside a `height` is at rest, too; {}",
                 face.question("solve"),
                 hold(face)
             ),

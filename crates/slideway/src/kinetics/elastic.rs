@@ -22,17 +22,18 @@ impl KineticEquations {
     ///
     /// Of these hinges, which are elastic, too, both components of their gaps follow.
     pub(crate) fn contact_inertia(&self, hinges: &[JointId]) -> DMatrix<f64> {
-        let rows = self.elastic_rows(hinges);
-        let columns: Vec<DVector<f64>> = rows
-            .iter()
-            .map(|&row| {
-                let mut unit = DVector::zeros(self.layout.len());
-                unit[row] = 1.0;
-                let unknowns = self.factorization.solve(&[&unit]).remove(0);
-                DVector::from_iterator(rows.len(), rows.iter().map(|&index| unknowns[index]))
-            })
-            .collect();
-        if columns.is_empty() { DMatrix::zeros(0, 0) } else { DMatrix::from_columns(&columns) }
+        let (rows, answers) = (self.elastic_rows(hinges), self.answers_to_gaps(hinges));
+        DMatrix::from_fn(rows.len(), rows.len(), |row, column| answers[column][rows[row]])
+    }
+
+    /// What a unit acceleration of each gap of [`Self::contact_inertia`] adds to all unknowns.
+    pub(crate) fn answers_to_gaps(&self, hinges: &[JointId]) -> Vec<DVector<f64>> {
+        let answer = |row: usize| {
+            let mut unit = DVector::zeros(self.layout.len());
+            unit[row] = 1.0;
+            self.factorization.solve(&[&unit]).remove(0)
+        };
+        self.elastic_rows(hinges).into_iter().map(answer).collect()
     }
 
     /// The massless accelerations: indices of bodies' accelerations whose mass or moment of inertia is zero.

@@ -337,18 +337,20 @@ impl KineticEquations {
         self.factorization.solve(&[&self.load]).remove(0)
     }
 
-    /// The unknowns with these friction forces at both faces of each contact and these accelerations of gaps, after a step of
-    /// iterative refinement. It takes out what rounding has left of great forces that cancel where contacts are open.
+    /// The unknowns with these friction forces at both faces of each contact, these couples of friction circles and these
+    /// accelerations of gaps, after a step of iterative refinement. It takes out what rounding has left of great forces that cancel where contacts are open.
     pub(crate) fn refined(
         &self,
         unknowns: &DVector<f64>,
         frictions: impl Iterator<Item = [f64; 2]>,
+        couples: impl Iterator<Item = (usize, f64)>,
         gaps: impl Iterator<Item = (ContactId, f64)>,
     ) -> DVector<f64> {
         let mut left = self.load.clone();
         for (columns, faces) in self.friction.iter().zip(frictions) {
             columns.iter().zip(faces).for_each(|(column, friction)| left.axpy(friction, column, 1.0));
         }
+        couples.for_each(|(circle, couple)| left.axpy(couple, &self.couples[circle], 1.0));
         for (contact, acceleration) in gaps {
             if let Some(place) = self.layout.reaction(Reaction::Normal(contact)) {
                 left[place] += acceleration;
@@ -461,7 +463,7 @@ impl<T: Real> Assembled<T> {
     /// # Errors
     /// Loads without a value or direction.
     pub(crate) fn new(mechanism: &Mechanism<T>, configuration: &Configuration<T>) -> Result<Self, Faults> {
-        mechanism.check_one_sided()?;
+        mechanism.check_one_sided_in_excess()?;
         Self::at_rest(mechanism, configuration)
     }
 

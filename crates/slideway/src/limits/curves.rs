@@ -6,7 +6,6 @@ use super::found::ModesFound;
 use super::options::LimitsOptions;
 use super::report::LimitsReport;
 use super::varied::Varied;
-use crate::attainability::ElasticJoints;
 use crate::choice::Choice;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
@@ -20,7 +19,7 @@ use crate::modes::existence::{EndCause, ModeInterval};
 use crate::problem::TurningHinge;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::{Verdict, finite};
-use crate::solve::{Closed, Parts, ProblemData, Stages, block_instance, friction, unknowns_of};
+use crate::solve::{Closed, Parts, ProblemData, Stages, attainability_with_hinges, friction, unknowns_of};
 use crate::units::{Unit, Units};
 use nalgebra::DVector;
 
@@ -238,10 +237,9 @@ fn of_branch(
         let of_state = OfState { pattern: &branch.states, normal_force: &normal_force, shares: &shares };
         let equations = KineticEquations::new(&stages.mechanism, &stages.configuration)?;
         let values = of_state.values(stages.data(), &equations, quantity, || unknowns.clone());
-        let joints: Vec<_> = hinges.iter().map(|hinge| hinge.joint).collect();
-        let elastic = ElasticJoints::new(&stages.mechanism, &equations, &joints);
-        let problem = block_instance(stages, hinges)?.problem;
-        Ok((values, elastic.of(problem.slopes(&branch.states, &forces.hinges), &branch.states).verdict))
+        let state = (&stages.configuration, &equations);
+        let forces = (branch.states.as_slice(), forces.hinges.as_slice());
+        Ok((values, attainability_with_hinges(stages.data(), state, hinges, forces).verdict))
     };
     varied.with_hinges(at, circles, values).ok()
 }

@@ -135,20 +135,7 @@ impl Mechanism {
 }
 
 impl<T: Real> Mechanism<T> {
-    /// Refuses contacts that may lift off and take part in a self-stress, as nothing says what they carry while they slide;
-    /// and friction in hinges beside them.
-    ///
-    /// # Errors
-    /// A fault that names them.
-    pub(crate) fn check_one_sided(&self) -> Result<(), Faults> {
-        self.check_one_sided_in_excess()?;
-        if self.friction_circles.iter().any(|circle| circle.radius.upper() > 0.0) {
-            self.check_no_one_sided("friction in hinges")?;
-        }
-        Ok(())
-    }
-
-    /// Refuses contacts that may lift off and take part in a self-stress.
+    /// Refuses contacts that may lift off and take part in a self-stress, as nothing says what they carry while they slide.
     ///
     /// # Errors
     /// A fault that names them.

@@ -273,7 +273,8 @@ impl<'a> Answer<'a> {
         let gaps = openings.map(|Opening { contact, acceleration, .. }| {
             (ContactId(*contact), (-state.normal_force[*contact]).max(0.0) * acceleration)
         });
-        self.equations.refined(&unknowns, faces, gaps)
+        let couples = state.hinges.iter().map(|hinge| (hinge.circle, hinge.couple));
+        self.equations.refined(&unknowns, faces, couples, gaps)
     }
 
     /// True if contacts lift off, and what others carry does not depend on how they share it.

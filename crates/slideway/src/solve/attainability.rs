@@ -6,15 +6,18 @@ mod tests;
 use super::answer::Answer;
 use super::mode_problem::ProblemData;
 use super::state::states;
-use crate::attainability::{Candidate, ElasticGuides};
+use crate::attainability::{Candidate, ElasticGuides, ElasticJoints};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
+use crate::ids::JointId;
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem};
+use crate::problem::TurningHinge;
 use crate::report::{Attainability, Fate, Solution, Verdict};
 use nalgebra::DVector;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Of a state that is yet to be examined, or never is.
@@ -22,63 +25,118 @@ pub(super) fn not_computed(reason: &str) -> Attainability {
     Attainability::without_eigenvalues(Verdict::NotComputed, reason)
 }
 
-/// A mechanism in which the contacts that lift off are not there, with its equations and its mode problem.
-pub(crate) struct Closed {
-    mechanism: Mechanism,
-    equations: KineticEquations,
-    problem: ModeProblem,
+/// A mechanism in which the contacts that lift off are not there, with its equations.
+pub(super) struct Left<'a> {
+    pub(super) mechanism: Cow<'a, Mechanism>,
+    pub(super) equations: Cow<'a, KineticEquations>,
+    pub(super) influence: Cow<'a, Influence>,
+    pub(super) velocity_signs: Cow<'a, DVector<f64>>,
     /// The contacts that are there.
-    kept: Vec<usize>,
+    pub(super) kept: Vec<usize>,
 }
 
-impl Closed {
+impl<'a> Left<'a> {
+    /// # Errors
+    /// Drives that cannot act on what is left.
+    pub(super) fn new(
+        ProblemData { mechanism, influence, velocity_signs }: ProblemData<'a>,
+        (configuration, equations): (&Configuration, &'a KineticEquations),
+        open: &[usize],
+    ) -> Result<Self, Faults> {
+        let kept: Vec<usize> = (0..mechanism.contacts.len()).filter(|k| !open.contains(k)).collect();
+        if open.is_empty() {
+            return Ok(Self {
+                mechanism: Cow::Borrowed(mechanism),
+                equations: Cow::Borrowed(equations),
+                influence: Cow::Borrowed(influence),
+                velocity_signs: Cow::Borrowed(velocity_signs),
+                kept,
+            });
+        }
+        let mechanism = mechanism.without_contacts(open);
+        let equations = KineticEquations::new(&mechanism, configuration)?;
+        Ok(Self {
+            influence: Cow::Owned(Influence::new(&equations)),
+            velocity_signs: Cow::Owned(velocity_signs.select_rows(&kept)),
+            mechanism: Cow::Owned(mechanism),
+            equations: Cow::Owned(equations),
+            kept,
+        })
+    }
+
+    fn data(&self) -> ProblemData<'_> {
+        let Self { mechanism, influence, velocity_signs, .. } = self;
+        ProblemData { mechanism, influence, velocity_signs }
+    }
+
+    /// The states of the contacts that are there, from those of all.
+    pub(super) fn states(&self, states: &[ContactState]) -> Vec<ContactState> {
+        self.kept.iter().map(|&k| states[k]).collect()
+    }
+}
+
+/// The attainability of a solution with friction in these hinges, which carry these forces: among the contacts that do not
+/// lift off.
+pub(crate) fn attainability_with_hinges(
+    data: ProblemData<'_>,
+    state: (&Configuration, &KineticEquations),
+    hinges: &[TurningHinge],
+    (states, reactions): (&[ContactState], &[[f64; 2]]),
+) -> Attainability {
+    let open: Vec<usize> = data.mechanism.opening(states).collect();
+    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
+    let of_left = |left: Left<'_>| {
+        let states = left.states(states);
+        let slopes = left.data().block_problem(hinges)?.slopes(&states, reactions);
+        Ok::<_, Faults>(ElasticJoints::new(&left.mechanism, &left.equations, &joints).of(slopes, &states))
+    };
+    Left::new(data, state, &open).and_then(of_left).unwrap_or_else(|_| not_computed(NOT_DRIVEN))
+}
+
+/// Why nothing is said of what is left when contacts have lifted off.
+pub(super) const NOT_DRIVEN: &str = "drives cannot act on what is left";
+
+/// A mechanism in which the contacts that lift off are not there, with its equations and its mode problem.
+pub(crate) struct Closed<'a> {
+    left: Left<'a>,
+    problem: ModeProblem,
+}
+
+impl<'a> Closed<'a> {
     /// # Errors
     /// Drives that cannot act on what is left; numbers beyond the range of floating point.
     pub(crate) fn new(
-        data: ProblemData<'_>,
-        (configuration, equations): (&Configuration, &KineticEquations),
+        data: ProblemData<'a>,
+        state: (&Configuration, &'a KineticEquations),
         open: &[usize],
     ) -> Result<Self, Faults> {
-        let kept = (0..data.mechanism.contacts.len()).filter(|k| !open.contains(k)).collect();
-        if open.is_empty() {
-            let (mechanism, equations) = (data.mechanism.clone(), equations.clone());
-            return Ok(Self { mechanism, equations, problem: data.problem()?, kept });
-        }
-        let mechanism = data.mechanism.without_contacts(open);
-        let equations = KineticEquations::new(&mechanism, configuration)?;
-        let influence = Influence::new(&equations);
-        let velocity_signs = &data.velocity_signs.select_rows(&kept);
-        let problem =
-            ProblemData { mechanism: &mechanism, influence: &influence, velocity_signs }.problem()?;
-        Ok(Self { mechanism, equations, problem, kept })
+        let left = Left::new(data, state, open)?;
+        let problem = left.data().problem()?;
+        Ok(Self { left, problem })
     }
 
     /// The verdict on the mode with these states of all contacts. What no contact holds follows its loads.
     pub(crate) fn verdict_on(&self, states: &[ContactState]) -> Verdict {
-        if self.kept.is_empty() {
+        if self.left.kept.is_empty() {
             Verdict::Attainable
         } else {
-            self.guides().verdict_on(&self.states(states))
+            self.guides().verdict_on(&self.left.states(states))
         }
     }
 
     /// Its guides, slightly elastic.
     fn guides(&self) -> ElasticGuides<'_> {
-        ElasticGuides::new(&self.mechanism, &self.equations, &self.problem)
-    }
-
-    /// The states of the contacts that are there, from those of all.
-    fn states(&self, states: &[ContactState]) -> Vec<ContactState> {
-        self.kept.iter().map(|&k| states[k]).collect()
+        ElasticGuides::new(&self.left.mechanism, &self.left.equations, &self.problem)
     }
 
     fn candidate(&self, solution: &Solution) -> Candidate {
         let contact = |&k: &usize| &solution.contacts[k];
-        let forces = self.kept.iter().map(|k| contact(k).normal_force);
+        let kept = &self.left.kept;
+        let forces = kept.iter().map(|k| contact(k).normal_force);
         Candidate {
-            states: self.states(&states(&solution.pattern)),
-            normal_force: DVector::from_iterator(self.kept.len(), forces),
-            deflections: self.kept.iter().map(|k| contact(k).deflection).collect(),
+            states: self.left.states(&states(&solution.pattern)),
+            normal_force: DVector::from_iterator(kept.len(), forces),
+            deflections: kept.iter().map(|k| contact(k).deflection).collect(),
         }
     }
 }
@@ -118,7 +176,7 @@ impl Answer<'_> {
         members: &[usize],
     ) -> Result<(), Faults> {
         let closed = Closed::new(self.data(), (self.configuration, self.equations), open)?;
-        if closed.kept.is_empty() && !open.is_empty() {
+        if closed.left.kept.is_empty() && !open.is_empty() {
             for &index in members {
                 solutions[index].oriented_determinant = 1.0;
                 solutions[index].attainability = Attainability {
@@ -130,7 +188,7 @@ impl Answer<'_> {
         }
         let guides = closed.guides();
         for &index in members {
-            let states = closed.states(&states(&solutions[index].pattern));
+            let states = closed.left.states(&states(&solutions[index].pattern));
             if !open.is_empty() {
                 solutions[index].oriented_determinant = guides.oriented_determinant(&states);
             } else if let Some(mean) = guides.oriented_mean(&states) {

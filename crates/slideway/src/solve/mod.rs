@@ -44,7 +44,7 @@ mod uncertainty;
 mod words;
 
 pub(crate) use answer::joint_modes;
-pub(crate) use attainability::Closed;
+pub(crate) use attainability::{Closed, attainability_with_hinges};
 pub(crate) use between_faces::states_between_faces;
 pub use blocks::exact_block_problem;
 pub(crate) use blocks::{BlockState, LastSolution, block_states, check_hinges, never_turning};

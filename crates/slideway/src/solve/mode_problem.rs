@@ -36,31 +36,28 @@ pub fn velocity_signs(mechanism: &Mechanism, configuration: &Configuration) -> R
 pub(crate) struct Sliding {
     /// The signs of the sliding velocities; 0 where a contact stands, or has no friction.
     pub(crate) signs: DVector<f64>,
-    /// The contacts with friction that do not slide: those that may lift off, whatever they do then, and of others those that
-    /// the drives keep at rest while the rest moves.
+    /// The contacts with friction that do not slide: all of them if some of them may lift off, else those that the drives keep at
+    /// rest while the rest moves.
     pub(crate) standing: Vec<ContactId>,
 }
 
 impl Sliding {
     /// # Errors
-    /// A fault for the contacts with friction that do not slide now but may begin to, where the forces decide that; not of those
-    /// that may lift off, of which all states are known.
+    /// A fault for the contacts with friction that do not slide now but may begin to, where the forces decide that; none beside those
+    /// that may lift off, as then all states are tried.
     pub(crate) fn of(mechanism: &Mechanism, configuration: &Configuration) -> Result<Self, Faults> {
         let signs = sliding_signs(mechanism, configuration);
         let still = (0..signs.len()).filter(|&k| signs[k] == 0.0 && mechanism.contacts[k].may_hold());
-        let (at_rest, still): (Vec<ContactId>, Vec<ContactId>) =
-            still.map(ContactId).partition(|id| mechanism.contacts[id.index()].opens);
-        if still.is_empty() {
-            return Ok(Self { signs, standing: at_rest });
+        let still: Vec<ContactId> = still.map(ContactId).collect();
+        if still.is_empty() || may_lift_off(mechanism, &still) {
+            return Ok(Self { signs, standing: still });
         }
         let joints: Vec<JointId> = still.iter().map(|id| mechanism.contacts[id.index()].joint).collect();
         let is_at_rest = configuration.rates.iter().all(|rate| *rate == 0.0);
         let staying = if is_at_rest { Vec::new() } else { staying(mechanism, configuration, &joints)? };
         let stays = |id: &ContactId| staying.contains(&mechanism.contacts[id.index()].joint);
-        let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.iter().partition(|id| stays(id));
-        let Some(first) = undefined.first() else {
-            return Ok(Self { signs, standing: [at_rest, standing].concat() });
-        };
+        let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.into_iter().partition(stays);
+        let Some(first) = undefined.first() else { return Ok(Self { signs, standing }) };
         let first_slides =
             |state: &Configuration| vec![sliding_signs(mechanism, state)[first.index()] != 0.0];
         let why = why(mechanism, configuration, (1, &first_slides)).pop();
@@ -81,7 +78,7 @@ pub(super) fn none_stands(mechanism: &Mechanism, standing: &[ContactId]) -> Resu
 }
 
 /// The fault of contacts that do not slide, at the joint of the first.
-fn does_not_slide(mechanism: &Mechanism, contacts: &[ContactId], why: NoSliding) -> Faults {
+pub(super) fn does_not_slide(mechanism: &Mechanism, contacts: &[ContactId], why: NoSliding) -> Faults {
     let of = |id: &ContactId| &mechanism.contacts[id.index()];
     let names = contacts.iter().map(|id| of(id).name.to_string()).collect();
     let place = contacts.first().map(|id| mechanism.joints[of(id).joint.index()].place.clone());

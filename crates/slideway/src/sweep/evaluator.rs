@@ -149,8 +149,6 @@ impl<'p> Evaluator<'p> {
         if stands {
             self.last = LastSolution::default();
         } else if self.mechanism.rough_hinges().next().is_some() {
-            // The stages may be those of a point without friction.
-            self.mechanism.check_one_sided()?;
             if write_with_hinges(self.plan, &self.mechanism, stages, (&mut self.last, point), rows, look)? {
                 return Ok(());
             }

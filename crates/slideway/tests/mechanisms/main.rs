@@ -32,6 +32,7 @@ mod margins;
 mod no_sliding;
 mod one_face;
 mod one_sided;
+mod one_sided_hinges;
 mod one_sided_jams;
 mod one_sided_rest;
 mod one_sided_resting;

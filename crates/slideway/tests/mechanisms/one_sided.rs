@@ -3,7 +3,7 @@
 
 use crate::answers::{assert_close, contact, mode, only, parameters, report_on, report_with, try_report_on};
 use crate::one_sided_systems::{Contact, State, System, random};
-use crate::random_mechanisms::cases;
+use crate::random_mechanisms::many;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use rstest::rstest;
@@ -99,7 +99,13 @@ fn is(solution: &Solution, system: &System, state: &State, tolerance: f64) -> bo
 }
 
 /// Holds a report to be the complete list of these states.
-fn assert_states(report: &SolveReport, system: &System, states: &[State], tolerance: f64, name: &str) {
+pub(crate) fn assert_states(
+    report: &SolveReport,
+    system: &System,
+    states: &[State],
+    tolerance: f64,
+    name: &str,
+) {
     assert_eq!(report.complete, Proof::Proven, "{name}: {:?}", report.open);
     assert_eq!(report.solutions.len(), states.len(), "{name}\n{}", system.text());
     for state in states {
@@ -158,7 +164,7 @@ fn the_reference_has_these_states() {
 }
 
 proptest! {
-    #![proptest_config(cases(300))]
+    #![proptest_config(many(400))]
     /// One or two bodies with two to four contacts, of which most may lift off: none, one and several states.
     #[test]
     fn random_systems_have_the_states_of_the_descriptor_form(

@@ -5,8 +5,8 @@
 //! corner sticks (`g'' = 0`, `v_t' = 0`), slips (`g'' = 0`, `T = -mu N s`) or is open (`N = T = 0`).
 
 use crate::answers::{contact, report_on};
-use crate::one_sided_systems::{System, random};
-use crate::random_mechanisms::cases;
+use crate::one_sided_systems::{Contact, System, random};
+use crate::random_mechanisms::{cases, many};
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -14,7 +14,7 @@ use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
-use slideway::report::{Report, Solution, SolveReport, Status};
+use slideway::report::{Report, Solution, SolveReport, Status, Verdict};
 use slideway::solve::solve;
 use slideway::{HoldOptions, hold};
 
@@ -62,6 +62,10 @@ fn options(system: &System, k: usize) -> Vec<(Does, f64)> {
             vec![(Does::Sticks, 1.0), (Does::Rubs(1.0), 1.0), (Does::Rubs(-1.0), 1.0), (Does::Opens, 1.0)]
         }
         "sliding" => vec![(Does::Rubs(sign), 1.0), (Does::Opens, 1.0)],
+        "holding" => {
+            let does = [Does::Sticks, Does::Rubs(1.0), Does::Rubs(-1.0)];
+            does.into_iter().flat_map(|does| [(does, 1.0), (does, -1.0)]).collect()
+        }
         _ => vec![(Does::Rubs(sign), 1.0), (Does::Rubs(sign), -1.0)],
     }
 }
@@ -181,12 +185,13 @@ fn native_states(system: &System) -> Option<(Vec<Native>, bool)> {
             match does {
                 Does::Opens => slacks.push(gap(k)),
                 Does::Sticks => {
-                    let limit = contacts[k].mu_static.unwrap_or(contacts[k].mu) * normal[k];
-                    slacks.extend([normal[k], limit - friction[k].abs()].map(|slack| slack / sizes[0]));
+                    let limit = contacts[k].mu_static.unwrap_or(contacts[k].mu) * normal[k].abs();
+                    slacks
+                        .extend([side * normal[k], limit - friction[k].abs()].map(|slack| slack / sizes[0]));
                 }
                 Does::Rubs(sign) => {
                     slacks.push(side * normal[k] / sizes[1]);
-                    if contacts[k].rests() {
+                    if contacts[k].rests() || contacts[k].kind == "holding" {
                         slacks.push(sign * slip(k));
                     }
                 }
@@ -246,20 +251,78 @@ fn reference() -> Reference {
     toml::from_str(REFERENCE).unwrap()
 }
 
-/// An odd number of states where all contacts are at rest and no drive acts (theory, section 12).
-fn is_at_rest(system: &System) -> bool {
-    system.drives.is_empty() && system.contacts.iter().all(|contact| contact.rests() || contact.mu == 0.0)
+/// Eigenvalues of `M x'' = -sum (n - mu s t) k n.x - sum t k t.x` over the closed contacts and those that stick, with unit stiffness:
+/// as many as there are springs, ascending. Nothing where a joint or drive is rigid besides, or two are too near to each other.
+fn spring_eigenvalues(system: &System, solution: &Solution) -> Option<Vec<f64>> {
+    let size = 3 * system.bodies.len();
+    if !system.hinges.is_empty() || !system.drives.is_empty() {
+        return None;
+    }
+    let mut stiffness = DMatrix::<f64>::zeros(size, size);
+    let mut springs = 0;
+    for one in &system.contacts {
+        let found = contact(solution, &one.name);
+        if found.gap_acceleration.is_some() {
+            continue;
+        }
+        let [normal, tangent] = [one.normal(), one.tangent()].map(|axis| system.relative(one, axis));
+        let slip = found.friction_force / (one.mu * found.normal_force.abs());
+        let words = &solution.joints.iter().find(|joint| joint.name == one.name).unwrap().mode;
+        springs += 1;
+        if words.ends_with("sticks") || words.ends_with("does not slip") {
+            springs += 1;
+            stiffness += &normal * normal.transpose() + &tangent * tangent.transpose();
+        } else {
+            let friction =
+                if one.mu == 0.0 { 0.0 } else { one.mu * slip.signum() * found.normal_force.signum() };
+            stiffness += (&normal - tangent * friction) * normal.transpose();
+        }
+    }
+    let inertia = system.bodies.iter().flat_map(|body| [body.m, body.m, body.moment]);
+    let inertia = DVector::from_iterator(size, inertia);
+    let matrix = DMatrix::from_fn(size, size, |row, column| stiffness[(row, column)] / inertia[row]);
+    let mut values: Vec<f64> = matrix.complex_eigenvalues().iter().map(|value| value.re).collect();
+    values.sort_by(|one, other| other.abs().total_cmp(&one.abs()));
+    values.truncate(springs);
+    values.sort_by(f64::total_cmp);
+    let is_near = |pair: &[f64]| pair[1] - pair[0] < 1e-3 * pair[1].abs();
+    (!values.windows(2).any(is_near)).then_some(values)
 }
 
-/// So many random systems: those of the suite, or as many as `SLIDEWAY_RESTING` says.
-fn count() -> u32 {
-    std::env::var("SLIDEWAY_RESTING").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
+/// Holds each solution that is examined to have these eigenvalues.
+fn assert_springs(report: &SolveReport, system: &System) -> usize {
+    let mut compared = 0;
+    for solution in &report.solutions {
+        let found = &solution.attainability;
+        let Some(expected) = spring_eigenvalues(system, solution) else { continue };
+        if found.eigenvalues.len() != expected.len() {
+            assert!(found.eigenvalues.is_empty(), "{expected:?} {found:?}\n{}", system.text());
+            continue;
+        }
+        compared += 1;
+        for ([value, _], expected) in found.eigenvalues.iter().zip(&expected) {
+            assert!(
+                (value - expected).abs() < 1e-6 * expected.abs(),
+                "{expected:?} {found:?}\n{}",
+                system.text()
+            );
+        }
+        let stable = expected.iter().all(|value| *value > 0.0);
+        assert_eq!(found.verdict == Verdict::Unattainable, !stable, "{found:?}\n{}", system.text());
+    }
+    compared
+}
+
+/// An odd number of states where all contacts are at rest and no drive acts (theory, section 12).
+fn is_at_rest(system: &System) -> bool {
+    let rests = |contact: &Contact| contact.rests() || contact.kind == "holding" || contact.mu == 0.0;
+    system.drives.is_empty() && system.contacts.iter().all(rests)
 }
 
 proptest! {
-    #![proptest_config(cases(count()))]
+    #![proptest_config(many(400))]
 
-    /// One or two bodies whose corners are at rest, slide or are pins in slots.
+    /// One or two bodies whose corners are at rest, slide or are pins in slots, which slide, are at rest or smooth.
     #[test]
     fn random_systems_start_in_their_native_states(
         numbers in vec(-1.0_f64..1.0, 60),
@@ -267,12 +330,15 @@ proptest! {
         hinged in any::<bool>(),
         driven in any::<bool>(),
         slides in any::<bool>(),
+        rough in any::<bool>(),
         more in 0..2_usize,
     ) {
         let (bodies, contacts) = if two { (2, 2 + more) } else { (1, 1 + more) };
         let Some(mut system) = random(&numbers, bodies, contacts, [hinged, driven && slides]) else { return Ok(()) };
         for (k, contact) in system.contacts.iter_mut().enumerate() {
-            if contact.kind == "bilateral" && !slides {
+            if contact.kind == "bilateral" && !slides && rough {
+                contact.kind = "holding".to_owned();
+            } else if contact.kind == "bilateral" && !slides {
                 contact.mu = 0.0;
             } else if contact.kind == "sliding" && (k == 0 || !slides) {
                 contact.kind = "resting".to_owned();
@@ -281,7 +347,7 @@ proptest! {
         }
         let rates = if slides { numbers.clone() } else { vec![0.0; 6] };
         let Some(system) = system.with_rates(rates.into_iter()) else { return Ok(()) };
-        prop_assume!(system.contacts.iter().any(crate::one_sided_systems::Contact::rests));
+        prop_assume!(system.contacts.iter().any(Contact::rests));
         // Of random velocities that nearly all is taken from, rounding is a part that counts as sliding.
         let fastest = system.bodies.iter().flat_map(|body| body.velocity).fold(0.0_f64, |most, v| most.max(v.abs()));
         prop_assume!(fastest == 0.0 || fastest > 1e-3);
@@ -289,8 +355,8 @@ proptest! {
         let values = DMatrix::from_columns(&rows).singular_values();
         prop_assume!(system.joint_rows().len() < 3 * bodies && rows.len() <= 3 * bodies);
         prop_assume!(values.min() > 0.05 * values.max());
-        let slides = |one: &crate::one_sided_systems::Contact| {
-            one.rests() || one.mu == 0.0 || system.sliding_velocity(one).abs() > 1e-3
+        let slides = |one: &Contact| {
+            one.rests() || one.kind == "holding" || one.mu == 0.0 || system.sliding_velocity(one).abs() > 1e-3
         };
         prop_assume!(system.contacts.iter().all(slides));
         let Some((states, leaves_open)) = native_states(&system) else { return Err(TestCaseError::reject("rounding")) };
@@ -298,6 +364,7 @@ proptest! {
         prop_assert!(!report.at_rest.is_empty(), "{}", system.text());
         prop_assert!(leaves_open || report.continua.is_empty(), "{}", system.text());
         assert_states(&report, &system, &states, 1e-7, "random");
+        assert_springs(&report, &system);
         if report.every_load_has_one_state == Some(true) {
             prop_assert_eq!((states.len(), leaves_open), (1, false), "{}", system.text());
         }
@@ -452,10 +519,41 @@ fn the_forces_of_a_ladder_are_a_continuum() {
     assert!((least - 817.726_924_8).abs() < 1e-6 && (greatest - 975.379_260_7).abs() < 1e-6, "{vertices:?}");
 }
 
-/// Two-sided contacts with friction at rest beside them are refused, and so are three corners on a line.
+/// The same cart at rest, pulled by F: it stays up to `mu (M + m) g`, and beyond takes the box with it, which neither slides
+/// (`x'' < mu_box g`) nor tips (`x'' < (b/2)/c g`).
+#[rstest]
+#[case(2.0, "rail: flat on the lower guide, sticks", 0.0)]
+#[case(10.0, "rail: flat on the lower guide, cart slides along (1, 0)", (10.0 - 0.05 * 6.0 * GRAVITY) / 6.0)]
+fn a_cart_at_rest_starts_with_its_box(#[case] force: f64, #[case] words: &str, #[case] expected: f64) {
+    let text = CART.replace("rate = 1", "rate = 0").replace("[-30, 0]", &format!("[{force}, 0]"));
+    let report = report_on(&text);
+    let [solution] = report.solutions.as_slice() else { panic!("{report:?}") };
+    let rail = solution.joints.iter().find(|joint| joint.name == "rail").unwrap();
+    assert_eq!(format!("rail: {}", rail.mode), words);
+    assert!((solution.coordinates[0].acceleration - expected).abs() < 1e-9);
+    // Six states of a contact with two faces meet where it presses neither: nothing is said about every load.
+    assert_eq!(report.every_load_has_one_state, None);
+}
+
+/// What the guide of a block with a height carries at both of its faces is a range if it sticks; guided sliders at rest are refused,
+/// and so are three corners on a line.
 #[test]
-fn what_else_rests_is_refused() {
-    let faults = solve(&Model::parse(&CART.replace("rate = 1", "rate = 0")).unwrap()).unwrap_err();
+fn what_else_rests_is_a_range_or_refused() {
+    let cart = CART.replace("rate = 1", "rate = 0");
+    let high = cart.replace("length = 0.4", "length = 0.4\nheight = 0.02");
+    // A torque that presses the front of the rail down and its rear up: friction at each face is free within its own limit.
+    let torque = "[loads.turn]\ntype = \"torque\"\nbody = \"cart\"\nmoment = -60\n[loads.brake]";
+    let high = high.replace("[loads.brake]", torque).replace("[-30, 0]", "[-1, 0]");
+    let report = report_on(&high);
+    assert_eq!((report.status, report.continua.len()), (Status::Continuum, 1), "{report:?}");
+    let held: Vec<&str> = report.continua[0].held.iter().map(|held| held.name.as_str()).collect();
+    assert_eq!(held, ["rail.front", "rail.rear", "base.front", "base.rear"]);
+    for rail in &report.continua[0].held[..2] {
+        let [least, greatest] = [f64::min, f64::max].map(|of| rail.at.iter().copied().fold(rail.at[0], of));
+        assert!(greatest - least > 1.0, "{rail:?}");
+    }
+    let guided = cart.replace("type = \"block_slider\"", "type = \"guided_slider\"");
+    let faults = solve(&Model::parse(&guided).unwrap()).unwrap_err();
     let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
     assert!(matches!(kinds.as_slice(), [FaultKind::ZeroSlidingVelocity { .. }]), "{faults}");
     let third = "[joints.third]\ntype = \"corner_on_face\"\nblock = \"box\"\nat = \"M\"\nalong = \"slope\"\nmu = 0.1\n[coordinates.x]";

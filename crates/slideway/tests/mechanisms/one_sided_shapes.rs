@@ -7,7 +7,7 @@ use slideway::check::check;
 use slideway::fault::FaultKind;
 use slideway::limits::{LimitsOptions, limits};
 use slideway::model::{Model, Settings};
-use slideway::report::{Persistence, Proof, Status, Uncertainty, Verdict};
+use slideway::report::{Persistence, Proof, SolveReport, Status, Uncertainty, Verdict};
 
 const PEG: &str = include_str!("../../models/peg-in-hole.toml");
 const CAM: &str = include_str!("../../models/cam-and-spring.toml");
@@ -181,4 +181,46 @@ fn friction_within_bounds() {
     assert_eq!((across.least_solutions, across.most_solutions), (1, Some(1)));
     assert_eq!(persistence(&across, "++"), Some(Persistence::SomeValues));
     assert_eq!(persistence(&across, "-+"), Some(Persistence::SomeValues));
+}
+
+/// A corner beyond the end of its face is apart whatever its height: the box moves as without it, and a motion that begins so ends
+/// at once, as what it meets there is not in the model.
+#[test]
+fn a_corner_beyond_the_end_of_its_face_is_apart() {
+    let text = |front: &str| {
+        format!(
+            "gravity = \"9.81 m/s^2\"\n[points]\nC = [0, 0.2]\nA = [-0.1, 0]\nB = [0.1, 0]\nfrom = [-1, 0]\nto = [0.05, 0]\n\
+             [bodies.box]\npoints = [\"C\", \"A\", \"B\"]\nmass = 1\nmoment_of_inertia = 0.02\ncentre_of_mass = \"C\"\n\
+             [joints.a]\ntype = \"corner_on_face\"\nblock = \"box\"\nat = \"A\"\nface = [\"from\", \"to\"]\nmu = 0.3\n{front}\
+             [coordinates.x]\nslide = \"a\"\nrate = -1\n[coordinates.turn]\nrotation = \"box\"\n"
+        )
+    };
+    let corner = "[joints.b]\ntype = \"corner_on_face\"\nblock = \"box\"\nat = \"B\"\nface = [\"from\", \"to\"]\nmu = 0.3\nclosed = false\n";
+    let alone = report_on(&text(""));
+    for turn in ["0 deg", "-5 deg", "5 deg"] {
+        let settings = Settings::default().position("turn", turn);
+        let model = |front: &str| Model::parse(&text(front)).unwrap();
+        let [with, without] = [corner, ""].map(|front| report_with(&model(front), &settings));
+        assert_eq!(with.solutions.len(), alone.solutions.len());
+        let acceleration = |report: &SolveReport| only(report).bodies[0].acceleration;
+        assert_eq!(acceleration(&with), acceleration(&without), "{turn}");
+    }
+    // It lies on its face as soon as that is long enough, and is in it if it is turned.
+    let long = |text: &str| text.replace("to = [0.05, 0]", "to = [0.5, 0]");
+    assert!(matches!(fault(&long(&text(corner))), FaultKind::TouchesThoughApart { .. }));
+    let turned = text(corner).replace("rotation = \"box\"", "rotation = \"box\"\nvalue = -0.1");
+    assert!(matches!(fault(&long(&turned)), FaultKind::Penetration { .. }));
+    // A block stands on its rear corner, and its front one is beyond the end.
+    let turn = "[coordinates.turn]\nrotation = \"box\"\n";
+    let block = |face: &str| {
+        let rear = BOX.replace("mu = \"mu\"\n", "mu = \"mu\"\nclosed = [\"rear\"]\n") + turn;
+        rear.replace(
+            "to = [\"1 m*cos(slope)\", \"1 m*sin(slope)\"]",
+            "to = [\"50 mm*cos(slope)\", \"50 mm*sin(slope)\"]",
+        )
+        .replace("along = \"slope\"", face)
+    };
+    assert!(matches!(fault(&block("along = \"slope\"")), FaultKind::TouchesThoughApart { .. }));
+    let report = report_on(&block("face = [\"from\", \"to\"]"));
+    assert_eq!(only(&report).contacts.len(), 1);
 }

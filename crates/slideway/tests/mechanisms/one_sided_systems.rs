@@ -50,6 +50,9 @@ pub(crate) struct Body {
 pub(crate) struct Hinge {
     pub(crate) between: [String; 2],
     pub(crate) at: [f64; 2],
+    /// Of the friction circle.
+    #[serde(default)]
+    pub(crate) radius: f64,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -170,7 +173,7 @@ impl System {
             .map_or(0.0, |body| -self.bodies[body].velocity[2].powi(2) * self.arm(body, at).dot(&axis))
     }
 
-    fn spin(&self, body: &str) -> f64 {
+    pub(crate) fn spin(&self, body: &str) -> f64 {
         self.body(body).map_or(0.0, |body| self.bodies[body].velocity[2])
     }
 
@@ -211,7 +214,8 @@ impl System {
     pub(crate) fn with_frames(mut self) -> Self {
         for Moving { name, pose, velocity } in std::mem::take(&mut self.frames) {
             let at = [pose[0] + 1.0, pose[1]];
-            self.hinges.push(Hinge { between: [name.clone(), "ground".to_owned()], at: [pose[0], pose[1]] });
+            let between = [name.clone(), "ground".to_owned()];
+            self.hinges.push(Hinge { between, at: [pose[0], pose[1]], radius: 0.0 });
             self.drives.push(Drive {
                 body: name.clone(),
                 at,
@@ -326,9 +330,12 @@ impl System {
             )
             .unwrap();
         }
-        for (index, Hinge { between: [a, b], .. }) in self.hinges.iter().enumerate() {
+        for (index, Hinge { between: [a, b], radius, .. }) in self.hinges.iter().enumerate() {
             let between = [format!("{a}.hinge_{index}"), format!("{b}.hinge_{index}")];
-            writeln!(text, "[joints.hinge_{index}]\ntype = \"hinge\"\nbetween = {between:?}").unwrap();
+            let friction =
+                if *radius > 0.0 { format!("friction_radius = {radius:?}\n") } else { String::new() };
+            writeln!(text, "[joints.hinge_{index}]\ntype = \"hinge\"\nbetween = {between:?}\n{friction}")
+                .unwrap();
         }
         for contact in &self.contacts {
             let Contact { name, body, guide, at, angle, mu, radius, guide_radius, .. } = contact;
@@ -398,7 +405,12 @@ impl System {
     }
 
     /// The matrix and the right-hand side of a pattern: unknowns are accelerations, hinge forces, normal forces, efforts.
-    fn equations(&self, open: &[bool], rough: bool, sides: &[f64]) -> (DMatrix<f64>, DVector<f64>) {
+    pub(crate) fn equations(
+        &self,
+        open: &[bool],
+        rough: bool,
+        sides: &[f64],
+    ) -> (DMatrix<f64>, DVector<f64>) {
         let (bodies, hinges) = (3 * self.bodies.len(), 2 * self.hinges.len());
         let contacts = self.contacts.len();
         let size = bodies + hinges + contacts + self.drives.len();
@@ -456,7 +468,7 @@ impl System {
 
     /// All states, by every pattern; nothing where rounding may decide about one.
     pub(crate) fn states(&self) -> Option<Vec<State>> {
-        let (bodies, hinges, contacts) = (3 * self.bodies.len(), 2 * self.hinges.len(), self.contacts.len());
+        let contacts = self.contacts.len();
         let mut states = Vec::new();
         for number in 0..1_usize << contacts {
             let is_other = |k: usize| number >> k & 1 == 1;
@@ -470,35 +482,45 @@ impl System {
                 return None;
             }
             let unknowns = matrix.lu().solve(&right)?;
-            let normal: Vec<f64> = (0..contacts).map(|k| unknowns[bodies + hinges + k]).collect();
-            let gap: Vec<f64> = (0..contacts)
-                .map(|k| {
-                    let contact = &self.contacts[k];
-                    let row = self.relative(contact, contact.normal());
-                    row.dot(&unknowns.rows(0, bodies)) + self.gap_of_velocities(contact)
-                })
-                .collect();
-            let sizes = [amax(&normal), amax(&gap)];
-            let slack = |k: usize| if open[k] { gap[k] / sizes[1] } else { sides[k] * normal[k] / sizes[0] };
-            let least = (0..contacts).map(slack).fold(f64::INFINITY, f64::min);
-            if least.abs() < 1e-6 || least.is_nan() {
-                return None;
-            }
-            if least > 0.0 {
-                states.push(State {
-                    normal: (0..contacts).map(|k| if open[k] { 0.0 } else { normal[k] }).collect(),
-                    gap: (0..contacts).map(|k| if open[k] { gap[k] } else { 0.0 }).collect(),
-                    accelerations: unknowns.rows(0, bodies).iter().copied().collect(),
-                    efforts: (bodies + hinges + contacts..unknowns.len()).map(|at| unknowns[at]).collect(),
-                    oriented: determinant / smooth,
-                });
+            let (state, slack) = self.state(&unknowns, (&open, &sides), determinant / smooth)?;
+            if slack > 0.0 {
+                states.push(state);
             }
         }
         Some(states)
     }
+
+    /// The state of a pattern with these unknowns, and the least slack of its inequalities; nothing where rounding may decide.
+    pub(crate) fn state(
+        &self,
+        unknowns: &DVector<f64>,
+        (open, sides): (&[bool], &[f64]),
+        oriented: f64,
+    ) -> Option<(State, f64)> {
+        let (bodies, hinges, contacts) = (3 * self.bodies.len(), 2 * self.hinges.len(), self.contacts.len());
+        let normal: Vec<f64> = (0..contacts).map(|k| unknowns[bodies + hinges + k]).collect();
+        let gap: Vec<f64> = (0..contacts)
+            .map(|k| {
+                let contact = &self.contacts[k];
+                let row = self.relative(contact, contact.normal());
+                row.dot(&unknowns.rows(0, bodies)) + self.gap_of_velocities(contact)
+            })
+            .collect();
+        let sizes = [amax(&normal), amax(&gap)];
+        let slack = |k: usize| if open[k] { gap[k] / sizes[1] } else { sides[k] * normal[k] / sizes[0] };
+        let least = (0..contacts).map(slack).fold(f64::INFINITY, f64::min);
+        let state = State {
+            normal: (0..contacts).map(|k| if open[k] { 0.0 } else { normal[k] }).collect(),
+            gap: (0..contacts).map(|k| if open[k] { gap[k] } else { 0.0 }).collect(),
+            accelerations: unknowns.rows(0, bodies).iter().copied().collect(),
+            efforts: (bodies + hinges + contacts..unknowns.len()).map(|at| unknowns[at]).collect(),
+            oriented,
+        };
+        (least.abs() >= 1e-6).then_some((state, least))
+    }
 }
 
-fn amax(values: &[f64]) -> f64 {
+pub(crate) fn amax(values: &[f64]) -> f64 {
     values.iter().map(|value| value.abs()).fold(0.0, f64::max)
 }
 
@@ -561,7 +583,8 @@ pub(crate) fn random(
     };
     let contacts: Vec<Contact> = (0..contacts).map(|k| contact(k, &mut any)).collect();
     let hinges = if hinged && names.len() > 1 {
-        vec![Hinge { between: [names[0].clone(), names[1].clone()], at: [any(1.0), any(1.0)] }]
+        let between = [names[0].clone(), names[1].clone()];
+        vec![Hinge { between, at: [any(1.0), any(1.0)], radius: 0.0 }]
     } else {
         Vec::new()
     };

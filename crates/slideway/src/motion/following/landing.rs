@@ -5,6 +5,7 @@ use crate::fault::Faults;
 use crate::ids::ContactId;
 use crate::motion::decision::{Landing, landing};
 use crate::motion::moving::cause::Cause;
+use crate::motion::moving::equations::Equations;
 
 impl Run<'_, '_> {
     /// Returns whether a contact reaches the line of its face beyond its ends.
@@ -12,7 +13,8 @@ impl Run<'_, '_> {
         let equations = &self.smooth.equations;
         let contact = &equations.mechanism.contacts[contact.index()];
         let slider = equations.mechanism.slider(contact.joint);
-        slider.is_some_and(|slider| equations.is_beside_face(slider, contact))
+        let Equations { configuration, mechanism, .. } = equations;
+        slider.is_some_and(|slider| configuration.is_beside_face(mechanism, slider, contact))
     }
 
     /// The impact of contacts on their faces, if the causes tell of one.

@@ -49,7 +49,10 @@ pub fn simulate_with(
 ) -> Result<History, Faults> {
     check(options)?;
     mechanism.check_no_press_fit("a motion in time")?;
-    mechanism.check_one_sided()?;
+    mechanism.check_one_sided_in_excess()?;
+    if mechanism.friction_circles.iter().any(|circle| circle.radius > 0.0) {
+        mechanism.check_no_one_sided("a motion with friction in hinges")?;
+    }
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);

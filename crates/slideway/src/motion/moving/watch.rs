@@ -223,7 +223,7 @@ impl<'o> Watch<'o> {
     /// Returns that a corner without contact reaches a face, unless it passes beyond the ends.
     pub(in crate::motion) fn bare_corner(&self, index: usize, equations: &Equations<'_>) -> Option<Cause> {
         let corner = &self.bare[index];
-        let reaches = !equations.is_beside_face(&corner.slider, &corner.contact);
+        let reaches = !is_beside_face(corner, equations);
         let (joint, wanted) = (corner.joint, corner.wanted());
         reaches.then(|| Cause::BareCorner { corner: corner.name.clone(), joint, wanted })
     }
@@ -332,10 +332,14 @@ fn gap_of(corner: &BareCorner, equations: &Equations<'_>) -> f64 {
     equations.configuration.gap_at(equations.mechanism, &corner.slider, &corner.contact)[0]
 }
 
+fn is_beside_face(corner: &BareCorner, equations: &Equations<'_>) -> bool {
+    equations.configuration.is_beside_face(equations.mechanism, &corner.slider, &corner.contact)
+}
+
 /// Returns whether a corner is on the free side of a face, and not beyond its ends where it passes its line.
 fn may_reach(corner: &BareCorner, equations: &Equations<'_>) -> bool {
     let (gap, near) = (gap_of(corner, equations), DRAWN_TOLERANCE * equations.mechanism.size);
-    gap > near || gap >= -near && !equations.is_beside_face(&corner.slider, &corner.contact)
+    gap > near || gap >= -near && !is_beside_face(corner, equations)
 }
 
 /// The normal force of a contact towards the side that is pressed (N).

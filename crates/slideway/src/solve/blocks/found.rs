@@ -1,13 +1,11 @@
 //! From the solutions of the block mode problem back to the mechanism.
 
 use super::super::answer::{Answer, Tipped, status};
-use super::super::attainability::not_computed;
+use super::super::attainability::{attainability_with_hinges, not_computed};
 use super::super::state::{State, pattern, signs};
 use super::margins::Growth;
 use super::states::hinge_states;
-use crate::attainability::ElasticJoints;
 use crate::enclosure::NotEnclosed;
-use crate::ids::JointId;
 use crate::interval::{Interval, Real};
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState};
@@ -62,7 +60,8 @@ fn region_in_words(region: &OpenRegion) -> String {
 pub(super) struct BlockAnswer<'a> {
     pub(super) answer: Answer<'a>,
     pub(super) problem: &'a BlockProblem,
-    /// The problem without friction; none unless guides share a load.
+    /// The problem without friction; none unless guides share a load or contacts may lift off, whose columns are not of
+    /// friction.
     pub(super) frictionless: Option<&'a BlockProblem>,
     pub(super) hinges: &'a [TurningHinge],
 }
@@ -70,8 +69,6 @@ pub(super) struct BlockAnswer<'a> {
 impl BlockAnswer<'_> {
     /// The report on all solutions, with their margins of friction if what grows is given.
     pub(super) fn report(&self, found: &BlocksFound<'_>, growth: Option<&Growth<'_>>) -> SolveReport {
-        let joints: Vec<JointId> = self.hinges.iter().map(|hinge| hinge.joint).collect();
-        let elastic = ElasticJoints::new(self.answer.mechanism, self.answer.equations, &joints);
         let mut tipping = Tipped::default();
         let (mut solutions, mut gaps) = (Vec::new(), Vec::new());
         for solution in found.result.solutions.iter().take(found.most) {
@@ -104,7 +101,9 @@ impl BlockAnswer<'_> {
                 kept.oriented_determinant = oriented;
             }
             kept.attainability = if solution.on_boundary.is_empty() && solution.unloaded.is_empty() {
-                elastic.of(slopes, &solution.states)
+                let state = (self.answer.configuration, self.answer.equations);
+                let forces = (solution.states.as_slice(), solution.reactions.as_slice());
+                attainability_with_hinges(self.answer.data(), state, self.hinges, forces)
             } else {
                 not_computed("a contact is about to change side, or a hinge with friction carries nothing")
             };
@@ -129,7 +128,7 @@ impl BlockAnswer<'_> {
         }
     }
 
-    /// The determinant of the slopes; of guides that share a load relative to that of the same contacts without friction.
+    /// The determinant of the slopes; of guides that share a load, and contacts that may lift off, relative to that of the same contacts without friction.
     fn oriented(&self, slopes: &DMatrix<f64>, solution: &BlockSolution) -> f64 {
         let Some(frictionless) = self.frictionless else { return slopes.determinant() };
         let without = frictionless.slopes(&solution.states, &solution.reactions).determinant();

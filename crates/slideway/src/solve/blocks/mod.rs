@@ -50,6 +50,7 @@ pub(super) fn solve(
     let Stages { mechanism, configuration, influence, .. } = stages;
     let Spins { turning, standing } = accepted_spins(mechanism, configuration, influence)?;
     if let [hinge] = &standing[..] {
+        mechanism.check_no_one_sided("the range of the couple of a hinge that never turns")?;
         return standing::of_hinge(stages, equations, *hinge);
     }
     none_stands(mechanism, &stages.standing)?;
@@ -63,7 +64,8 @@ pub(super) fn solve(
     let result = blocks::search(searched, &options.search, progress);
     let found = BlocksFound { result: &result, rounded: enclosed.as_ref().err(), most: options.most };
     let without_friction = || Ok::<_, Faults>(GrowingFriction::new(stages, &turning)?.at(0.0)?.problem);
-    let frictionless = answer.shared.is_some().then(without_friction).transpose()?;
+    let has_other_columns = answer.shared.is_some() || mechanism.has_one_sided();
+    let frictionless = has_other_columns.then(without_friction).transpose()?;
     let answer =
         BlockAnswer { answer, problem: &problem, frictionless: frictionless.as_ref(), hinges: &turning };
     let (report, _) = as_far_as_wanted(progress, |work| {

@@ -8,6 +8,7 @@ use crate::ids::{BodyId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
 use crate::problem::TurningHinge;
+use nalgebra::DVector;
 
 /// The hinges with friction.
 pub(super) struct Spins {
@@ -107,17 +108,21 @@ fn why_still(mechanism: &Mechanism, configuration: &Configuration, still: &[Join
     if still.is_empty() { Vec::new() } else { why(mechanism, configuration, (still.len(), &turn)) }
 }
 
-/// The sense in which a hinge that does not turn begins to, by the joint equations alone.
+/// The sense in which a hinge that does not turn begins to, by the joint equations alone; none if that depends on contacts that
+/// may lift off.
 fn begins(mechanism: &Mechanism, influence: &Influence, joint: JointId) -> Option<f64> {
-    let accelerations = |frame: Frame| {
-        frame.body().map_or(0.0, |body| influence.frictionless[influence.layout().acceleration(body) + 2])
-    };
     let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind else { return None };
-    let acceleration = accelerations(first.frame) - accelerations(second.frame);
-    let greatest = (0..mechanism.bodies.len())
-        .map(|body| accelerations(Frame::Body(BodyId(body))).abs())
-        .fold(0.0, f64::max);
-    (acceleration.abs() > NO_ACCELERATION * greatest).then(|| acceleration.signum())
+    let turns = |unknowns: &DVector<f64>| {
+        let of = |frame: Frame| {
+            frame.body().map_or(0.0, |body| unknowns[influence.layout().acceleration(body) + 2])
+        };
+        let acceleration = of(first.frame) - of(second.frame);
+        let greatest =
+            (0..mechanism.bodies.len()).map(|body| of(Frame::Body(BodyId(body))).abs()).fold(0.0, f64::max);
+        (acceleration.abs() > NO_ACCELERATION * greatest).then(|| acceleration.signum())
+    };
+    let depends = influence.openings.iter().any(|opening| turns(&opening.answer).is_some());
+    turns(&influence.frictionless).filter(|_| !depends)
 }
 
 /// Says of hinges in which sense each turns: 1, -1, or 0 where it does not within rounding.

@@ -1,24 +1,26 @@
 //! Contacts that may lift off and do not slide at the start (theory, section 12): each joint of them sticks, begins to slide
-//! one way or the other, or lifts off, a block with one corner or with both.
+//! one way or the other, or lifts off, a block with one corner or with both. What else is at rest beside them sticks or begins to
+//! slide, pressed on either side.
 //!
 //! With all contacts closed the unknowns of the kinetic equations are affine in the forces. For a pattern of states
 //!
 //! ```text
 //! x = x_0 + sum_k z_k x_k + sum_j T_j t_j        z_k: |N_k| where closed, the acceleration of the gap where open
-//! N_k(x) = s_k z_k closed, 0 open                v_j'(x) = 0 of joints that stick
+//! N_k(x) = sigma_k z_k closed, 0 open            v_j'(x) = 0 of joints that stick
 //! z_k >= 0       |T_j| <= sum_k mu_static_k z_k  of joints that stick       s_j v_j'(x) >= 0 of joints that slip
 //! ```
 //!
-//! is one system of linear equations, and all patterns are tried: four for a corner at rest, ten for a block, two for
-//! each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. Three absolute
+//! is one system of linear equations, and all patterns are tried: four for a corner at rest, ten for a block, three for each choice
+//! of sides of a joint with two faces, two for each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. Three absolute
 //! values for each contact would state the same as a block problem, whose search is proven, with patterns beside that no state
 //! has; the native states also have static friction above kinetic, and what the equations leave open.
 
+mod elastic;
 mod jam;
 mod patterns;
 
 use super::answer::{Answer, Tipped, joint_modes, status};
-use super::attainability::{Closed, not_computed};
+use super::attainability::{Closed, NOT_DRIVEN, not_computed};
 use super::distinct::distinct;
 use super::mode_problem::ProblemData;
 use super::stages::Stages;
@@ -37,7 +39,7 @@ use crate::report::{
 };
 pub(super) use jam::impulses as jam_impulses;
 use nalgebra::DVector;
-use patterns::System;
+use patterns::{Stuck, System, face_of};
 use std::cell::OnceCell;
 
 /// Inequalities that are missed by this part of the greatest force or acceleration count as satisfied.
@@ -102,7 +104,7 @@ pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> boo
 /// All states of a mechanism of which contacts that may lift off do not slide at the start.
 ///
 /// # Errors
-/// Other contacts that stand still beside them, more patterns of states than are tried.
+/// Guided sliders or preloads among what stands still, guides that share a load, more patterns of states than are tried.
 pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Result<SolveReport, Faults> {
     check_standing(&stages.mechanism, &stages.standing)?;
     let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
@@ -172,10 +174,12 @@ impl<'a> Resting<'a> {
             let left = DVector::from_fn(unknowns.len(), |row, _| match row.checked_sub(states.len()) {
                 None if self.is_open(&system.pattern, row) => all[self.place(row)] / self.force,
                 None => (all[self.place(row)] - states[row].sign() * unknowns[row]) / self.force,
-                Some(stuck) => {
-                    let joint = system.sticking[stuck];
-                    self.joints[joint].rate(&all) / self.acceleration(joint)
-                }
+                Some(stuck) => match system.sticking[stuck] {
+                    Stuck { joint, is_first: true, .. } => {
+                        self.joints[joint].rate(&all) / self.acceleration(joint)
+                    }
+                    Stuck { .. } => 0.0,
+                },
             });
             let Some(step) = factors.solve(&left) else { break };
             unknowns -= step * self.force;
@@ -282,24 +286,27 @@ impl<'a> Resting<'a> {
         let force = |k: usize| if unknowns[k].abs() <= nothing { 0.0 } else { unknowns[k] };
         let mut held = Vec::new();
         for (index, (joint, start)) in self.joints.iter().zip(starts).enumerate() {
-            let closed: Vec<usize> =
-                joint.contacts.iter().copied().filter(|&k| !self.is_open(&system.pattern, k)).collect();
-            let all: f64 = closed.iter().map(|&k| mechanism.contacts[k].mu_static[0] * force(k)).sum();
-            for &k in &closed {
-                let Contact { mu, mu_static, .. } = &mechanism.contacts[k];
+            for &k in joint.contacts.iter().filter(|&&k| !self.is_open(&system.pattern, k)) {
+                let Contact { mu, preload, .. } = &mechanism.contacts[k];
+                let face = face_of(states[k]);
                 let friction = match start {
-                    Some(Start::Slips(sign)) => sign * mu[0] * force(k),
+                    Some(Start::Slips(sign)) => sign * (mu[face] * force(k) + preload[face]),
                     Some(Start::Sticks) => {
-                        let unknown = system.sticking.iter().position(|stuck| *stuck == index);
-                        let whole = unknown.map_or(0.0, |unknown| unknowns[contacts + unknown]);
-                        if all > 0.0 { whole * mu_static[0] * force(k) / all } else { 0.0 }
+                        let of_joint = |stuck: &Stuck| stuck.joint == index && stuck.contacts.contains(&k);
+                        let unknown = system.sticking.iter().position(of_joint);
+                        unknown.map_or(0.0, |unknown| {
+                            let limit = |&k: &usize| self.limit(&system.pattern, k, force(k));
+                            let all: f64 = system.sticking[unknown].contacts.iter().map(limit).sum();
+                            let whole = unknowns[contacts + unknown];
+                            if all > 0.0 { whole * limit(&k) / all } else { 0.0 }
+                        })
                     }
                     None => 0.0,
                 };
-                held.push(Held {
-                    contact: k,
-                    friction: ContactFriction { positive_face: friction, negative_face: 0.0 },
-                });
+                let mut faces = [0.0; 2];
+                faces[face] = friction;
+                let [positive_face, negative_face] = faces;
+                held.push(Held { contact: k, friction: ContactFriction { positive_face, negative_face } });
             }
         }
         let sign = |(k, sign): (usize, i8)| if force(k) == 0.0 { 0 } else { sign };
@@ -340,8 +347,7 @@ impl<'a> Resting<'a> {
     }
 
     /// Judges whether a state persists if contacts are slightly elastic, where they are closed along n, and along u where they stick:
-    /// not where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable, and
-    /// without any that stick the state is that of contacts that slide.
+    /// not where the oriented determinant is negative, which an odd number of unstable motions is. Springs alone are stable.
     fn attainability(&self, point: &Point) -> Attainability {
         let Answer { mechanism, configuration, influence, .. } = *self.answer;
         let (signs, states) = (self.signs(&point.pattern), &point.pattern.states);
@@ -357,17 +363,12 @@ impl<'a> Resting<'a> {
             told(Verdict::Unattainable)
         } else if mechanism.drives.is_empty() && !(0..states.len()).filter(is_closed).any(rubs) {
             told(Verdict::Attainable)
-        } else if sticks && !mechanism.drives.is_empty() {
-            not_computed("drives act beside contacts that stick")
         } else if sticks {
-            not_computed("some contacts stick while others slide")
+            self.with_springs(point)
         } else {
             let data = ProblemData { mechanism, influence, velocity_signs: &signs };
             let closed = Closed::new(data, (configuration, self.answer.equations), &open);
-            closed.map_or_else(
-                |_| not_computed("drives cannot act on what is left"),
-                |closed| told(closed.verdict_on(states)),
-            )
+            closed.map_or_else(|_| not_computed(NOT_DRIVEN), |closed| told(closed.verdict_on(states)))
         }
     }
 
@@ -428,13 +429,10 @@ impl<'a> Resting<'a> {
         };
         let held = |k: usize, free: &DVector<f64>| {
             let point = point(free);
-            point
-                .held
-                .iter()
-                .find(|held| held.contact == k)
-                .map_or(0.0, |held| held.friction.positive_face + 0.0)
+            point.held.iter().find(|held| held.contact == k).map_or(0.0, |held| held.friction.total() + 0.0)
         };
-        let stuck = system.sticking.iter().flat_map(|&joint| self.joints[joint].contacts.clone());
+        let stuck = system.sticking.iter().filter(|stuck| stuck.is_first);
+        let stuck = stuck.flat_map(|stuck| self.joints[stuck.joint].contacts.clone());
         let of_contact = |k: usize| HeldFriction {
             name: self.answer.mechanism.contacts[k].name.to_string(),
             unit: "N",

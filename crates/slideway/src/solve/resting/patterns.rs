@@ -16,8 +16,21 @@ pub(super) struct System {
     pub(super) pattern: Pattern,
     pub(super) base: DVector<f64>,
     pub(super) columns: Vec<DVector<f64>>,
-    /// For each unknown friction, its joint.
-    pub(super) sticking: Vec<usize>,
+    pub(super) sticking: Vec<Stuck>,
+}
+
+/// An unknown friction: of a joint that sticks, at one of its faces.
+pub(super) struct Stuck {
+    pub(super) joint: usize,
+    /// The contacts that press there.
+    pub(super) contacts: Vec<usize>,
+    /// Whether it is the first of its joint, with whose row that no sliding begins stands.
+    pub(super) is_first: bool,
+}
+
+/// The face that a contact presses: 0 where its normal force is positive.
+pub(super) fn face_of(state: ContactState) -> usize {
+    usize::from(state == ContactState::Negative)
 }
 
 impl Resting<'_> {
@@ -29,7 +42,10 @@ impl Resting<'_> {
         use ContactState::{Negative, Positive};
         let contacts = self.answer.mechanism.contacts.len();
         let at_rest: Vec<usize> = self.joints.iter().flat_map(|joint| joint.contacts.clone()).collect();
-        let of_joint = |joint: &RestingJoint| 3 * ((1_u64 << joint.contacts.len()) - 1) + 1;
+        let of_joint = |joint: &RestingJoint| {
+            let of_sides = 1_u64 << joint.contacts.len();
+            if self.lifts_off(joint) { 3 * (of_sides - 1) + 1 } else { 3 * of_sides }
+        };
         let sliding = u32::try_from(contacts - at_rest.len()).ok().and_then(|count| 2_u64.checked_pow(count));
         let states = self.joints.iter().map(of_joint).fold(sliding.unwrap_or(u64::MAX), u64::saturating_mul);
         if states > most {
@@ -45,7 +61,7 @@ impl Resting<'_> {
             for pattern in
                 joint.contacts.iter().fold(all, |all, &k| with_state(all, k, &[Positive, Negative]))
             {
-                let touches = joint.contacts.iter().any(|&k| pattern.states[k] == Positive);
+                let touches = joint.contacts.iter().any(|&k| !self.is_open(&pattern, k));
                 let starts: &[Option<Start>] = if touches {
                     &[Some(Start::Sticks), Some(Start::Slips(1.0)), Some(Start::Slips(-1.0))]
                 } else {
@@ -88,12 +104,39 @@ impl Resting<'_> {
                 unknowns(&forces) - &base
             })
             .collect();
-        let sticks =
-            |(joint, start): (usize, &Option<Start>)| (*start == Some(Start::Sticks)).then_some(joint);
-        let sticking: Vec<usize> = pattern.starts.iter().enumerate().filter_map(sticks).collect();
-        let of_friction = |joint: &usize| influence.columns[self.joints[*joint].contacts[0]][0].clone();
+        let sticking = self.sticking(&pattern);
+        let of_friction = |Stuck { contacts, .. }: &Stuck| {
+            influence.columns[contacts[0]][face_of(pattern.states[contacts[0]])].clone()
+        };
         columns.extend(sticking.iter().map(of_friction));
         System { pattern, base, columns, sticking }
+    }
+
+    /// The unknown frictions of a pattern: one of each joint that sticks, two where both of its faces press at different heights.
+    fn sticking(&self, pattern: &Pattern) -> Vec<Stuck> {
+        let mut all = Vec::new();
+        let starts = pattern.starts.iter().enumerate();
+        for (joint, _) in starts.filter(|(_, start)| **start == Some(Start::Sticks)) {
+            let RestingJoint { contacts, joint: id, .. } = &self.joints[joint];
+            let closed = contacts.iter().copied().filter(|&k| !self.is_open(pattern, k));
+            let is_flat = self.answer.mechanism.slider(*id).is_none_or(|slider| slider.height == 0.0);
+            let (one, other): (Vec<usize>, Vec<usize>) =
+                closed.partition(|&k| is_flat || face_of(pattern.states[k]) == 0);
+            let faces = [one, other].into_iter().filter(|contacts| !contacts.is_empty()).enumerate();
+            all.extend(faces.map(|(index, contacts)| Stuck { joint, contacts, is_first: index == 0 }));
+        }
+        all
+    }
+
+    /// The greatest friction of a contact at rest that presses with a force.
+    pub(super) fn limit(&self, pattern: &Pattern, k: usize, force: f64) -> f64 {
+        let (contact, face) = (&self.answer.mechanism.contacts[k], face_of(pattern.states[k]));
+        contact.mu_static[face] * force + contact.preload[face]
+    }
+
+    /// Returns whether a joint at rest may lift off; others have two faces.
+    fn lifts_off(&self, joint: &RestingJoint) -> bool {
+        joint.contacts.iter().any(|&k| self.answer.mechanism.contacts[k].opens)
     }
 
     /// The equations of a pattern in units of force; none if they contradict each other.
@@ -103,10 +146,12 @@ impl Resting<'_> {
         let contacts = system.pattern.states.len();
         let right = DVector::from_fn(matrix.nrows(), |row, _| match row.checked_sub(contacts) {
             None => -system.base[self.place(row)] / force,
-            Some(stuck) => {
-                let joint = system.sticking[stuck];
-                -self.joints[joint].rate(&system.base) / self.acceleration(joint)
-            }
+            Some(stuck) => match system.sticking[stuck] {
+                Stuck { joint, is_first: true, .. } => {
+                    -self.joints[joint].rate(&system.base) / self.acceleration(joint)
+                }
+                Stuck { .. } => 0.0,
+            },
         });
         AffineSet::of(matrix, right)
     }
@@ -124,11 +169,14 @@ impl Resting<'_> {
                 };
                 system.columns[column][self.place(row)] - of_itself
             }
-            Some(stuck) => {
-                let joint = system.sticking[stuck];
-                let change = self.joints[joint].row.change(&system.columns[column]);
-                change * self.force / self.acceleration(joint)
-            }
+            Some(stuck) => match system.sticking[stuck] {
+                Stuck { joint, is_first: true, .. } => {
+                    let change = self.joints[joint].row.change(&system.columns[column]);
+                    change * self.force / self.acceleration(joint)
+                }
+                // Nothing says how both faces share it.
+                Stuck { .. } => 0.0,
+            },
         })
     }
 
@@ -137,17 +185,19 @@ impl Resting<'_> {
     /// touches.
     pub(super) fn slacks(&self, system: &System, set: &AffineSet) -> [Vec<Affine>; 2] {
         let contacts = system.pattern.states.len();
-        let mechanism = self.answer.mechanism;
         let (open, closed): (Vec<usize>, Vec<usize>) =
             (0..contacts).partition(|&k| self.is_open(&system.pattern, k));
         let own = |list: Vec<usize>| -> Vec<AffineExpression> {
             list.into_iter().map(|k| AffineExpression::unknown(k, 1.0)).collect()
         };
         let (mut beginning, mut all) = (own(open), own(closed));
-        for (unknown, &joint) in (contacts..).zip(&system.sticking) {
-            let closed = self.joints[joint].contacts.iter().filter(|&&k| !self.is_open(&system.pattern, k));
-            let limit = closed.fold(AffineExpression::default(), |limit, &k| {
-                limit.plus(mechanism.contacts[k].mu_static[0], &AffineExpression::unknown(k, 1.0))
+        for (unknown, stuck) in (contacts..).zip(&system.sticking) {
+            let limit = stuck.contacts.iter().fold(AffineExpression::default(), |limit, &k| {
+                let of_preload = self.limit(&system.pattern, k, 0.0);
+                let of_force = self.limit(&system.pattern, k, 1.0) - of_preload;
+                limit
+                    .plus(of_force, &AffineExpression::unknown(k, 1.0))
+                    .plus(1.0 / self.force, &AffineExpression::constant(of_preload))
             });
             all.extend(
                 [1.0, -1.0].map(|sign| limit.clone().plus(sign, &AffineExpression::unknown(unknown, 1.0))),
@@ -187,18 +237,21 @@ impl Resting<'_> {
     }
 
     /// Returns whether the signs of the oriented determinants tell if every load has exactly one state, which it has where those of all
-    /// patterns are positive (Kuhn and Loewen 1987): nothing slides, and static friction is kinetic friction.
+    /// patterns are positive (Kuhn and Loewen 1987): nothing slides, static friction is kinetic friction, and no joint at rest has
+    /// two faces, whose six states meet where it presses neither, more than that theorem allows.
     pub(super) fn may_be_unique(&self) -> bool {
         let has_one_law = |contact: &Contact| contact.mu == contact.mu_static;
         let slides =
             |k: usize| self.answer.velocity_signs[k] != 0.0 && self.answer.mechanism.contacts[k].may_hold();
         let contacts = &self.answer.mechanism.contacts;
-        contacts.iter().all(has_one_law) && !(0..contacts.len()).any(slides)
+        contacts.iter().all(has_one_law)
+            && !(0..contacts.len()).any(slides)
+            && self.joints.iter().all(|joint| self.lifts_off(joint))
     }
 
     /// By what the rows of a matrix are divided.
     pub(super) fn scale(&self, system: &System) -> f64 {
-        system.sticking.iter().map(|&joint| self.acceleration(joint)).product()
+        system.sticking.iter().map(|stuck| self.acceleration(stuck.joint)).product()
     }
 
     pub(super) fn is_open(&self, pattern: &Pattern, k: usize) -> bool {

@@ -28,15 +28,16 @@ pub(super) mod polyhedron;
 use super::answer::{Answer, Tipped, status};
 use super::attainability::not_computed;
 use super::distinct::{agree, distinct};
-use super::mode_problem::none_stands;
+use super::mode_problem::{does_not_slide, none_stands};
 use super::resting::may_lift_off;
 use super::stages::Stages;
 use super::state::{Held, State, pattern, signs};
-use crate::fault::{Fault, FaultKind, Faults, MOST_CONTACTS, MOST_STANDING};
+use crate::fault::{Fault, FaultKind, Faults, MOST_CONTACTS, MOST_STANDING, NoSliding};
 use crate::ids::ContactId;
 use crate::influence::HingeState;
 use crate::kinetics::KineticEquations;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, Slider};
+use crate::model::SliderKind;
 use crate::modes::{Certificate, ContactState, Side};
 use crate::problem::TurningHinge;
 use crate::report::{Continuum, CoupleRange, HeldFriction, MarginsMissing, SolveReport};
@@ -56,15 +57,27 @@ pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Resu
     Standing { answer: Answer::determinate(stages, equations), stages, free }.report()
 }
 
-/// Refuses contacts that stand still beside what leaves no answer to compute: beside those at rest that may lift off, any other.
+/// Refuses contacts that stand still beside what leaves no answer to compute: beside those at rest that may lift off, guided sliders
+/// and preloads that act elsewhere than friction does.
 ///
 /// # Errors
 /// As [`of_contacts`].
 pub(crate) fn check_standing(mechanism: &Mechanism, standing: &[ContactId]) -> Result<(), Faults> {
     if may_lift_off(mechanism, standing) {
-        let others: Vec<ContactId> =
-            standing.iter().copied().filter(|contact| !mechanism.contacts[contact.index()].opens).collect();
-        return none_stands(mechanism, &others);
+        mechanism.check_determinate("how contacts at rest start")?;
+        let is_refused = |id: &ContactId| {
+            let contact = &mechanism.contacts[id.index()];
+            let is_plain = |slider: &Slider| {
+                let is_even = slider.height == 0.0 && contact.preload[0] == contact.preload[1];
+                slider.kind != SliderKind::Guided && (is_even || contact.preload == [0.0; 2])
+            };
+            !mechanism.slider(contact.joint).is_some_and(is_plain)
+        };
+        let refused: Vec<ContactId> = standing.iter().copied().filter(is_refused).collect();
+        if refused.is_empty() {
+            return Ok(());
+        }
+        return Err(does_not_slide(mechanism, &refused, NoSliding::Starts));
     }
     if !standing.is_empty() {
         mechanism.check_no_one_sided("what stands still while the rest moves")?;

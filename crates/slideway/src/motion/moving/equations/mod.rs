@@ -32,8 +32,7 @@ use crate::configuration::{Configuration, ContactGeometry, Pose};
 use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, DriveId, JointId};
 use crate::kinetics::{Applied, ConstraintRow, Layout, Reaction, equilibration};
-use crate::mechanism::{Attachment, Contact, Mechanism, Slider, body_of};
-use crate::model::SliderKind;
+use crate::mechanism::{Mechanism, body_of};
 use crate::modes::Side;
 use crate::motion::moving::linear::{Determinant, LinearSystem};
 use crate::motion::moving::stepper::Derivative;
@@ -42,9 +41,6 @@ use crate::pattern::phase::Phase;
 pub(in crate::motion) use crate::pattern::phase::sliding_joints;
 use nalgebra::{DMatrix, Vector2};
 
-/// Within this part of the size of the mechanism beyond its end a contact still meets its face: what the drawing puts at the end is
-/// off by rounding.
-const ON_END: f64 = 1e-9;
 /// Ratio of pivots from which on the equations count as singular.
 const SINGULAR: f64 = 1e14;
 
@@ -343,26 +339,10 @@ impl<'m> Equations<'m> {
             return room(configuration.sliding(mechanism, slider).0, slider.limits());
         }
         let closed = slider.contacts.iter().filter(|contact| !self.is_open(contact.index()));
-        let room = |contact: &ContactId| self.room_on_face(slider, &mechanism.contacts[contact.index()], end);
+        let room = |contact: &ContactId| {
+            configuration.room_on_face(mechanism, slider, &mechanism.contacts[contact.index()], end)
+        };
         closed.map(room).fold(f64::INFINITY, f64::min)
-    }
-
-    /// How far a contact that may lift off is from the beginning (-1) or the end (1) of its face (m).
-    pub(in crate::motion) fn room_on_face(&self, slider: &Slider, contact: &Contact, end: f64) -> f64 {
-        let position = contact.position(slider);
-        let [block, guide] = [slider.block, slider.guide]
-            .map(|frame| self.configuration.position(self.mechanism, &Attachment { frame, position }));
-        let along = self.configuration.direction(slider.guide, slider.tangent).dot(&(block - guide));
-        let half = if slider.kind == SliderKind::Block { slider.length / 2.0 } else { 0.0 };
-        let [least, greatest] = slider.limits();
-        let place = along + contact.offset;
-        if end < 0.0 { place - (least - half) } else { greatest + half - place }
-    }
-
-    /// Returns whether a contact that may lift off is beyond the ends of its face.
-    pub(in crate::motion) fn is_beside_face(&self, slider: &Slider, contact: &Contact) -> bool {
-        let room = |end| self.room_on_face(slider, contact, end);
-        room(-1.0).min(room(1.0)) < -ON_END * self.mechanism.size
     }
 
     /// For a contact in a preload gap the share of the face of positive normal force.
