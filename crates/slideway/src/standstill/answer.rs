@@ -105,15 +105,24 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
         (Some(0.0), None, _) => format!("any `{name}`"),
         (None, Some(0.0), _) => format!("any reversed `{name}`"),
         (Some(0.0), Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
+        (Some(least), None, "") if least < 0.0 => format!("any `{name}`, and reversed up to {} times it", brief(-least)),
         (Some(least), None, "") => format!("{} times `{name}` or more", brief(least)),
         (None, Some(greatest), "") => format!("{} times `{name}` or less", brief(greatest)),
         (Some(least), Some(greatest), "") if least == greatest => {
             format!("exactly {} times `{name}`", brief(least))
         }
+        (Some(least), Some(greatest), "") if least < 0.0 && greatest > 0.0 => {
+            let [back, on] = [-least, greatest].map(brief);
+            let reversed = if back == on { "as well".to_owned() } else { format!("up to {back} times") };
+            format!("up to {on} times `{name}`, reversed {reversed}")
+        }
         (Some(least), Some(greatest), "") => {
             format!("{} to {} times `{name}`", brief(least), brief(greatest))
         }
         (Some(least), None, _) => format!("`{name}` from {} on", unit.brief(least)),
+        (None, Some(greatest), _) if greatest < 0.0 => {
+            format!("reversed `{name}` from {} on", unit.brief(-greatest))
+        }
         (None, Some(greatest), _) => format!("`{name}` up to {}", unit.brief(greatest)),
         (Some(least), Some(greatest), _) if least == greatest => {
             format!("`{name}` of {} only", unit.brief(least))
@@ -135,7 +144,13 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
         [] if load.unit.is_empty() => format!("It does not hold with any multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
         held if holds_none(held) && !is_open => format!("It holds no `{name}`, however small."),
-        ranges => format!("It {holds} {}.", ranges.iter().map(one).collect::<Vec<_>>().join(", or ")),
+        ranges => {
+            // What acts as it was named comes before what is reversed.
+            let (named, reversed): (Vec<&Range>, Vec<&Range>) =
+                ranges.iter().partition(|range| range.greatest.is_none_or(|greatest| greatest > 0.0));
+            let all: Vec<String> = named.into_iter().chain(reversed).map(one).collect();
+            format!("It {holds} {}.", all.join(", or "))
+        }
     }
 }
 
@@ -172,8 +187,8 @@ fn locks(load: &LoadReport, holds_all: bool) -> String {
         };
     }
     let by_itself = match load.certain_from {
-        Some(certain) => format!("`{name}` by itself is held only {}.", at(certain)),
-        None => format!("`{name}` by itself need not wedge it: do not rely on it."),
+        Some(certain) => format!("By itself `{name}` is held only {}.", at(certain)),
+        None => format!("By itself `{name}` need not wedge it: do not rely on it."),
     };
     let wedges = if load.self_locking { "While wedged it holds" } else { "If it were wedged it would hold" };
     format!("{wedges} any `{name}` {}. {by_itself}", at(first))
