@@ -464,21 +464,30 @@ fn bands(history: &History, first: usize) -> Vec<Band> {
     let mechanism = &history.mechanism;
     let seconds = mechanism.units.of("s");
     let mut reader = history.reader();
+    // Patterns with the same words have one colour: signs of contacts without friction tell nothing.
+    let mut places: Vec<(String, usize)> = Vec::new();
     let mut meanings: Vec<(String, String)> = Vec::new();
     let mut bands: Vec<Band> = Vec::new();
     for group in groups(history) {
         let pattern = group[0].phase.pattern(mechanism);
         let is_one = group.iter().all(|phase| phase.phase.pattern(mechanism) == pattern);
         let key = if is_one { pattern } else { String::new() };
-        let place = meanings.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
+        let known = places.iter().find(|(known, _)| *known == key).map(|(_, place)| *place);
+        let place = known.unwrap_or_else(|| {
             let words = reader.configuration(group[0].from);
             let words = words.map(|configuration| modes_in_words(mechanism, configuration, &group[0].phase));
-            let meaning = match words.filter(|_| is_one) {
-                Some(words) => format!("{}:\u{a0}{words}", signs(&key)),
-                None => "modes too short to be distinguished".to_owned(),
+            let (words, meaning) = match words.filter(|_| is_one) {
+                Some(words) if words.is_empty() => (words, signs(&key)),
+                Some(words) => (words.clone(), format!("{}:\u{a0}{words}", signs(&key))),
+                None => (String::new(), "modes too short to be distinguished".to_owned()),
             };
-            meanings.push((key, meaning));
-            meanings.len() - 1
+            let same = meanings.iter().position(|(other, _)| *other == words && !words.is_empty());
+            let place = same.unwrap_or_else(|| {
+                meanings.push((words, meaning));
+                meanings.len() - 1
+            });
+            places.push((key, place));
+            place
         });
         let (colour, meaning) = (first + place, meanings[place].1.clone());
         let [from, to] = [group[0].from, group[group.len() - 1].to].map(|time| seconds.number_of(time));

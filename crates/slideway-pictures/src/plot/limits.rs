@@ -48,6 +48,7 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
         panels.iter_mut().zip(directions).for_each(|(panel, counts)| {
             (panel.y, panel.zones) = (Axis::default(), Vec::new());
             panel.bands = bands(counts, scale);
+            panel.marked.extend(changes(counts, scale));
         });
     }
     without_empty_ends(&mut panels);
@@ -156,6 +157,13 @@ impl Builder<'_> {
             self.branches.len() - 1
         })
     }
+}
+
+/// Where one interval gives way to the next.
+fn changes(counts: &[CountLimits], scale: f64) -> impl Iterator<Item = MarkedValue> {
+    let label = |at: f64| precise(at).replace('-', "\u{2212}");
+    let inner = counts.iter().skip(1).map(move |count| count.from / scale);
+    inner.map(move |at| MarkedValue { at, label: label(at), asymptote: false })
 }
 
 /// What happens in each interval, where no mode has a curve.

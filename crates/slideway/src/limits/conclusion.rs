@@ -39,6 +39,14 @@ pub(super) fn conclusion(
             _ => joined.push(piece),
         }
     }
+    // What was sampled and is narrower than its digits show is where two states meet.
+    let is_seen = |piece: &Piece| {
+        let [from, to] = [piece.from, piece.to].map(|end| varied.shown_in.precise_number(end));
+        piece.known != Known::Sampled || piece.from == piece.to || from != to
+    };
+    if joined.iter().any(is_seen) {
+        joined.retain(is_seen);
+    }
     let gaps = forwards.without_mode_problem.iter().map(|gap| [gap.from, gap.to]).collect::<Vec<_>>();
     let summary = summary(&joined, &gaps, varied).map(|summary| summary + &lifting(&forwards.modes, varied));
     let is_plain = joined.iter().all(|piece| piece.verdict == MOVES || piece.verdict == JAMS);

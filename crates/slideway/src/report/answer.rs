@@ -7,6 +7,8 @@ use super::{
 };
 use crate::units::brief;
 
+/// What is left open where ranges of parameters are not followed.
+pub(crate) const AT_THE_MIDDLE: &str = "parameters known within bounds are taken at the middle of their ranges";
 /// Of a block that keeps one corner on its face.
 pub(crate) const TIPS: &str = "it tips";
 /// Of a state that stays at rest.
@@ -19,6 +21,15 @@ const NEARBY: &str = "Ask again with slightly more or less friction or load.";
 impl SolveReport {
     /// The verdict in a sentence: "It moves: push needs 36.36 N (20 N without friction)."
     pub fn verdict_in_words(&self) -> String {
+        let verdict = self.verdict();
+        if !self.open.iter().any(|open| open == AT_THE_MIDDLE) {
+            return verdict;
+        }
+        let verdict = verdict.strip_prefix("It ").map_or_else(|| verdict.clone(), |rest| format!("it {rest}"));
+        format!("For the middle of the ranges of parameters: {verdict}")
+    }
+
+    fn verdict(&self) -> String {
         if self.partial && matches!(self.status, Status::One | Status::Several | Status::PreloadGap) {
             let states = if self.count == "0" { &self.gap_state_count } else { &self.count };
             let found = if states == "1" { "one solution" } else { &format!("{states} solutions") };

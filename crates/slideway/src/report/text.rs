@@ -507,6 +507,7 @@ fn closest_row(mode: &ClosestMode) -> Vec<String> {
 }
 
 fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<String>>) {
+    let units = &of_contacts(contacts, units);
     let [force, speed, couple, pressure] = ["N", "m/s", "N m", "Pa"].map(|si| units.of(si));
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
@@ -550,6 +551,13 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
         row
     };
     (header, contacts.iter().map(row).collect())
+}
+
+/// The units with that of forces in which most of those of these contacts read well.
+pub fn of_contacts(contacts: &[Contact], units: &Units) -> Units {
+    let forces = contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
+    let forces: Vec<f64> = forces.filter(|force| *force != 0.0).collect();
+    units.clone().suited_to_most("N", &forces)
 }
 
 /// Coordinates, drives, hinges and bodies: name, what, value, unit.

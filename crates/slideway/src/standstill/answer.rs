@@ -41,13 +41,36 @@ fn verdict(report: &HoldReport) -> String {
         HoldVerdict::HoldsUntilPushed => {
             "It holds. Once pushed it keeps sliding: kinetic friction is lower than static.".to_owned()
         }
-        HoldVerdict::HoldsOrSlips => "It may hold, or it may start to slide: do not rely on it.".to_owned(),
+        HoldVerdict::HoldsOrSlips => {
+            let may = "It may hold, or it may start to slide: do not rely on it.";
+            format!("{may}{}", if falls_freely(report) { FALLS_FREELY } else { "" })
+        }
         HoldVerdict::Moves => moves(report),
         HoldVerdict::Neither => {
             "It can neither stay at rest nor start to slide with finite accelerations.".to_owned()
         }
         HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
     }
+}
+
+/// Why something may slide that would hold: what a designer of a bracket that carries its own weight has to know.
+const FALLS_FREELY: &str = " While it slides freely nothing presses its guides, as all loads pass through its centre of mass; \
+                            let down gently it holds.";
+
+/// Forces up to this part of the greatest at rest press nothing.
+const NOTHING: f64 = 1e-12;
+
+/// Whether in every motion that begins no contact is pressed.
+fn falls_freely(report: &HoldReport) -> bool {
+    let is_zero = |range: &Range| {
+        let ends = [range.least, range.greatest];
+        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.greatest_at_rest()))
+    };
+    let nothing_presses = |release: &Release| {
+        let contacts = &release.reactions.contacts;
+        !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
+    };
+    !report.releases.is_empty() && report.releases.iter().all(nothing_presses)
 }
 
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."

@@ -191,7 +191,7 @@ impl Words<'_> {
             if self.needs_no_words(*joint) {
                 return None;
             }
-            if let Some(lifts) = self.lifting(index, *joint, [before, after]) {
+            if let Some(lifts) = self.lifting(causes, index, *joint, [before, after]) {
                 return Some(lifts);
             }
             let told = match (before.joints[index], after.joints[index]) {
@@ -236,7 +236,13 @@ impl Words<'_> {
     }
 
     /// That contacts of a joint lift off or come to touch, if they do.
-    fn lifting(&self, index: usize, joint: JointId, [before, after]: [&Phase; 2]) -> Option<String> {
+    fn lifting(
+        &self,
+        causes: &[Cause],
+        index: usize,
+        joint: JointId,
+        [before, after]: [&Phase; 2],
+    ) -> Option<String> {
         let slider = self.mechanism.slider(joint)?;
         let open = |phase: &Phase| -> Vec<bool> {
             slider.contacts.iter().map(|contact| phase.is_open(self.mechanism, contact.index())).collect()
@@ -255,7 +261,15 @@ impl Words<'_> {
                 };
                 Some(format!("{name} tips over {}, {how}", self.contact(*corner)))
             }
-            Some(_) => Some(format!("{name} touches: it {}", self.state("is now", index, joint, after))),
+            Some(_) => {
+                // That it lands has been said.
+                let lands = |cause: &Cause| {
+                    matches!(cause, Cause::Lands { contact, .. } if slider.contacts.contains(contact))
+                };
+                let touches =
+                    if causes.iter().any(lands) { String::new() } else { format!("{name} touches: ") };
+                Some(format!("{touches}it {}", self.state("is now", index, joint, after)))
+            }
         }
     }
 
