@@ -323,10 +323,13 @@ impl<'a> Resting<'a> {
         Some(kept)
     }
 
-    /// Returns whether in a pattern every joint of the mechanism sticks with all its contacts.
+    /// Returns whether in a pattern every joint of the mechanism that friction may hold sticks, and no contact opens.
     fn stands(&self, pattern: &Pattern) -> bool {
-        let touching = self.answer.mechanism.sliders().filter(|(_, slider)| !slider.contacts.is_empty());
-        self.joints.len() == touching.count()
+        let mechanism = self.answer.mechanism;
+        let may_hold = |contact: &ContactId| mechanism.contacts[contact.index()].may_hold();
+        let held = mechanism.sliders().filter(|(_, slider)| slider.contacts.iter().any(may_hold));
+        let joints: Vec<JointId> = self.joints.iter().map(|joint| joint.joint).collect();
+        held.map(|(joint, _)| joint).all(|joint| joints.contains(&joint))
             && pattern.starts.iter().all(|start| *start == Some(Start::Sticks))
             && !(0..pattern.states.len()).any(|k| self.is_open(pattern, k))
     }
