@@ -54,13 +54,13 @@ fn verdict(report: &HoldReport) -> String {
 }
 
 /// Why something may slide that would hold: what a designer of a bracket that carries its own weight has to know.
-const FALLS_FREELY: &str = " While it slides freely nothing presses its guides, as all loads pass through its centre of mass; \
-                            let down gently it holds.";
+const FALLS_FREELY: &str = " While it slides nothing presses its guides; let down gently it holds.";
 
 /// Forces up to this part of the greatest at rest press nothing.
 const NOTHING: f64 = 1e-12;
 
-/// Whether in every motion that begins no contact is pressed.
+/// Whether in every motion that begins no contact is pressed, and at rest all forces have bounds: they grow with the loads then, so
+/// that it holds while the loads are let on little by little.
 fn falls_freely(report: &HoldReport) -> bool {
     let is_zero = |range: &Range| {
         let ends = [range.least, range.greatest];
@@ -70,7 +70,9 @@ fn falls_freely(report: &HoldReport) -> bool {
         let contacts = &release.reactions.contacts;
         !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
     };
-    !report.releases.is_empty() && report.releases.iter().all(nothing_presses)
+    let rest = report.at_rest.as_ref();
+    let is_wedged = report.sharing.is_some() || rest.is_none_or(|rest| !rest.wedging.is_empty());
+    !is_wedged && !report.releases.is_empty() && report.releases.iter().all(nothing_presses)
 }
 
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."
@@ -130,6 +132,7 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
         (Some(0.0), Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
         (Some(least), None, "") if least < 0.0 => format!("any `{name}`, and reversed up to {} times it", brief(-least)),
         (Some(least), None, "") => format!("{} times `{name}` or more", brief(least)),
+        (None, Some(greatest), "") if greatest < 0.0 => format!("reversed, {} times it or more", brief(-greatest)),
         (None, Some(greatest), "") => format!("{} times `{name}` or less", brief(greatest)),
         (Some(least), Some(greatest), "") if least == greatest => {
             format!("exactly {} times `{name}`", brief(least))
