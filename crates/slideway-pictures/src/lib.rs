@@ -29,7 +29,8 @@ pub(crate) fn printed(words: &str) -> String {
     for (typed, exponent) in [("^2", "²"), ("^3", "³")] {
         let parts: Vec<&str> = printed.split(typed).collect();
         let goes_on = |part: &str| part.starts_with(|next: char| next.is_ascii_digit() || next == '.');
-        let joined = parts[1..].iter().map(|part| [if goes_on(part) { typed } else { exponent }, part].concat());
+        let joined =
+            parts[1..].iter().map(|part| [if goes_on(part) { typed } else { exponent }, part].concat());
         printed = parts[0].to_owned() + &joined.collect::<String>();
     }
     escaped(&printed)

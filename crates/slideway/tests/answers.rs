@@ -85,7 +85,8 @@ fn a_load_that_is_held_by_itself_alone_is_not_called_self_locking() {
     let boom = held("telescopic-boom", &[], Some("W"));
     assert!(boom.starts_with("It does not hold") && !boom.contains("elf-locking"), "{boom}");
     assert!(
-        boom.contains(" times `W` or more, or reversed, ") && boom.contains(" times it or more. By itself `W` is held, "),
+        boom.contains(" times `W` or more, or reversed, ")
+            && boom.contains(" times it or more. By itself `W` is held, "),
         "{boom}"
     );
 }

@@ -4,9 +4,9 @@ use super::animation::{Animation, FrameOf};
 use crate::coordinate::{NotFinite, coordinate, finished, tenths, thousandths};
 use crate::drawing::svg::{Colour, class_name, markup, rules};
 use crate::drawing::{Class, Element, Point, Shape, nice, quantity, sample};
-use crate::printed;
 use crate::plot::TITLE;
 use crate::plot::svg::wrapped;
+use crate::printed;
 use crate::typeface::{STACK, width};
 use std::fmt::Write;
 

@@ -6,8 +6,8 @@ use crate::drawing::svg::{self, Colours};
 use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::Report;
 use slideway::limits::{LimitsReport, ModeLimits};
-use slideway::report::{of_contacts, 
-    JointMode, LoadSharing, ModeEndCause, Proof, Solution, SolveReport, followed, precise,
+use slideway::report::{
+    JointMode, LoadSharing, ModeEndCause, Proof, Solution, SolveReport, followed, of_contacts, precise,
 };
 use slideway::units::{Unit, Units};
 

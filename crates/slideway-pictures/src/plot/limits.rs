@@ -1,7 +1,9 @@
 //! The figure of limits: a quantity along every mode over what is varied.
 
 use super::colours::ModeColours;
-use super::figure::{Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
+use super::figure::{
+    Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline,
+};
 use super::scale::extent;
 use slideway::limits::{
     self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem, VariedQuantity,
@@ -44,7 +46,8 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
     }
     if panels.iter().all(|panel| panel.curves.is_empty()) {
         let scale = report.vary.shown_in.scale();
-        let directions = std::iter::once(&report.counts).chain(report.reversed.iter().map(|other| &other.counts));
+        let directions =
+            std::iter::once(&report.counts).chain(report.reversed.iter().map(|other| &other.counts));
         panels.iter_mut().zip(directions).for_each(|(panel, counts)| {
             (panel.y, panel.zones) = (Axis::default(), Vec::new());
             panel.bands = bands(counts, scale);

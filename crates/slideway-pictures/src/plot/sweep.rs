@@ -405,9 +405,8 @@ impl SweepPlot {
         let ends = together.map(|marks| self.label(marks, near));
         // Single points that cannot be solved leave gaps in the curves.
         let is_mark = |at: f64| self.marks.iter().any(|mark| (mark.at - at).abs() <= near);
-        let is_gap = |run: &&Run| {
-            run.hatching == Hatching::Falling && run.to - run.from <= near && !is_mark(run.from)
-        };
+        let is_gap =
+            |run: &&Run| run.hatching == Hatching::Falling && run.to - run.from <= near && !is_mark(run.from);
         let gap = |run: &Run| {
             let mark = Mark { point: run.first, at: run.from, breakpoint: Breakpoint::NotSolved };
             self.label(&[mark], near)

@@ -160,8 +160,9 @@ impl Naming {
     ) -> Vec<String> {
         match cause {
             EndCause::SideChange(contacts) => self.contacts(&ModeEndCause::of_those(contacts, closed)),
-            EndCause::GapCloses(contacts)
-            | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
+            EndCause::GapCloses(contacts) | EndCause::GreatestNormalForce(contacts) => {
+                self.contacts(contacts)
+            }
             EndCause::OutputBound(bounds) => self.mechanism.guided_sliders(bounds),
             EndCause::HingeUnloaded(hinges) => {
                 hinges.iter().map(|&hinge| self.hinge(circles[hinge]).to_owned()).collect()

@@ -8,7 +8,8 @@ use super::{
 use crate::units::brief;
 
 /// What is left open where ranges of parameters are not followed.
-pub(crate) const AT_THE_MIDDLE: &str = "parameters known within bounds are taken at the middle of their ranges";
+pub(crate) const AT_THE_MIDDLE: &str =
+    "parameters known within bounds are taken at the middle of their ranges";
 /// Of a block that keeps one corner on its face.
 pub(crate) const TIPS: &str = "it tips";
 /// Of a state that stays at rest.
@@ -25,7 +26,8 @@ impl SolveReport {
         if !self.open.iter().any(|open| open == AT_THE_MIDDLE) {
             return verdict;
         }
-        let verdict = verdict.strip_prefix("It ").map_or_else(|| verdict.clone(), |rest| format!("it {rest}"));
+        let verdict =
+            verdict.strip_prefix("It ").map_or_else(|| verdict.clone(), |rest| format!("it {rest}"));
         format!("For the middle of the ranges of parameters: {verdict}")
     }
 
@@ -94,7 +96,8 @@ impl SolveReport {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
             (Status::One, [only]) if only == HOLDS => format!("It holds.{unique}"),
             (Status::One, [only]) => {
-                let tips = self.solutions.iter().flat_map(|one| &one.joints).any(|one| one.mode.contains(TIPS));
+                let tips =
+                    self.solutions.iter().flat_map(|one| &one.joints).any(|one| one.mode.contains(TIPS));
                 let starts = if tips { "It tips" } else { "It starts in one way" };
                 format!("{starts}. {only}.{unique}")
             }
@@ -420,7 +423,8 @@ fn safe_up_to(any: &str, times: &str) -> String {
 /// The end of a sentence, and the contacts that lift off in a solution: ". tip lifts off.", of a block that keeps another
 /// corner on its face " and tips: base.front lifts off."
 fn lifting_in_words(solution: &Solution) -> String {
-    let before = if solution.joints.iter().any(|joint| joint.mode.ends_with(TIPS)) { " and tips:" } else { "." };
+    let before =
+        if solution.joints.iter().any(|joint| joint.mode.ends_with(TIPS)) { " and tips:" } else { "." };
     let opens = solution.contacts.iter().filter(|contact| contact.gap_acceleration.is_some());
     let names: Vec<&str> = opens.map(|contact| &*contact.name).collect();
     match names.as_slice() {

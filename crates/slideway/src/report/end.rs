@@ -94,7 +94,9 @@ impl ModeEndCause {
         let all = |contacts: &[usize], state| contacts.iter().all(|&k| closed(k) == Some(state));
         match cause {
             // Others that change side there do so because it lifts off.
-            EndCause::SideChange(contacts) if contacts.iter().any(|&k| closed(k) == Some(true)) => Self::LiftsOff,
+            EndCause::SideChange(contacts) if contacts.iter().any(|&k| closed(k) == Some(true)) => {
+                Self::LiftsOff
+            }
             EndCause::SideChange(contacts) if all(contacts, false) => Self::Touches,
             EndCause::Range => Self::Range,
             EndCause::Singular if nothing_is_left => Self::Locking,

@@ -130,9 +130,13 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
         (Some(0.0), None, _) => format!("any `{name}`"),
         (None, Some(0.0), _) => format!("any reversed `{name}`"),
         (Some(0.0), Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
-        (Some(least), None, "") if least < 0.0 => format!("any `{name}`, and reversed up to {} times it", brief(-least)),
+        (Some(least), None, "") if least < 0.0 => {
+            format!("any `{name}`, and reversed up to {} times it", brief(-least))
+        }
         (Some(least), None, "") => format!("{} times `{name}` or more", brief(least)),
-        (None, Some(greatest), "") if greatest < 0.0 => format!("reversed, {} times it or more", brief(-greatest)),
+        (None, Some(greatest), "") if greatest < 0.0 => {
+            format!("reversed, {} times it or more", brief(-greatest))
+        }
         (None, Some(greatest), "") => format!("{} times `{name}` or less", brief(greatest)),
         (Some(least), Some(greatest), "") if least == greatest => {
             format!("exactly {} times `{name}`", brief(least))

@@ -363,10 +363,7 @@ fn a_box_starts_as_the_reference_says() {
         (contact(&both.solutions[0], "base.front").gap_acceleration.unwrap() - 0.549_870_438_1).abs() < 1e-8
     );
     let stays = at_rest(&text, &[]);
-    assert_eq!(
-        stays.answer(),
-        "It holds. Every load has exactly one state."
-    );
+    assert_eq!(stays.answer(), "It holds. Every load has exactly one state.");
     assert!(stays.solutions[0].coordinates[0].acceleration.abs() < 1e-12);
     assert_eq!(stays.solutions[0].oriented_determinant.signum(), 1.0);
 }

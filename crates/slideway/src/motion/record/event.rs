@@ -263,9 +263,7 @@ impl Words<'_> {
             }
             Some(_) => {
                 // That it lands has been said.
-                let lands = |cause: &Cause| {
-                    matches!(cause, Cause::Lands { contact, .. } if slider.contacts.contains(contact))
-                };
+                let lands = |cause: &Cause| matches!(cause, Cause::Lands { contact, .. } if slider.contacts.contains(contact));
                 let touches =
                     if causes.iter().any(lands) { String::new() } else { format!("{name} touches: ") };
                 Some(format!("{touches}it {}", self.state("is now", index, joint, after)))
