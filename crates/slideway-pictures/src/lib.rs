@@ -23,6 +23,19 @@ pub mod typeface;
 
 pub use coordinate::NotFinite;
 
+/// Words as a picture shows them, as they stand in XML: without the marks around commands, with true exponents.
+pub(crate) fn printed(words: &str) -> String {
+    let mut printed = words.replace('`', "");
+    for (typed, exponent) in [("^2", "²"), ("^3", "³")] {
+        let parts: Vec<&str> = printed.split(typed).collect();
+        let goes_on = |part: &str| part.starts_with(|next: char| next.is_ascii_digit() || next == '.');
+        let joined =
+            parts[1..].iter().map(|part| [if goes_on(part) { typed } else { exponent }, part].concat());
+        printed = parts[0].to_owned() + &joined.collect::<String>();
+    }
+    escaped(&printed)
+}
+
 /// Text as it stands in XML and HTML, in elements and attributes: characters that are not seen, some of which
 /// XML does not allow, stand as their numbers ([`slideway::printable`]). Ends of lines are blanks.
 pub(crate) fn escaped(text: &str) -> String {
@@ -39,4 +52,13 @@ pub(crate) fn escaped(text: &str) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn what_is_printed_has_true_exponents_and_no_marks_of_commands() {
+        assert_eq!(super::printed("ask `hold`: 2 m/s^2 & kg m^2"), "ask hold: 2 m/s² &amp; kg m²");
+        assert_eq!(super::printed("x^25, x^2.5 and x^3"), "x^25, x^2.5 and x³");
+    }
 }

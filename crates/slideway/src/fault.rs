@@ -856,7 +856,7 @@ impl FaultKind {
             ),
             Self::NoLoadAtRest { .. } => Some("give the load a magnitude in the model"),
             Self::NotOnlyFriction { .. } => Some(
-                "write both ends with units, for instance `x=50mm..200mm`; only a parameter on which nothing but friction depends, linearly, needs none",
+                "write both ends with units, for instance `x=50mm..200mm`; only coefficients of friction need none",
             ),
             Self::RangeNeeded { .. } => {
                 Some("write both ends with units, for instance `x=-10mm..10mm` or `phi=20deg..70deg`")

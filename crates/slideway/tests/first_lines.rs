@@ -152,7 +152,7 @@ fn of_solve(outcome: Outcome) -> First {
         ),
         Tip => Line(solved(TIPPING_PRESS, &[("mu", "1.3")]), "No answer: bed tips"),
         Jam => Line(solved("drawer", &[("mu", "0.7")]), "It jams: no force of push moves it. "),
-        SlowsDown => Line(solved(PEG, &[]), "It slows down and would stop after "),
+        SlowsDown => Line(solved(PEG, &[]), "It slows down at "),
         Undecided => Line(solved("drawer", &VERGE), "Not decided: it is on the verge of jamming, "),
         Interrupted => {
             let mut stop = |_: &_| ControlFlow::Break(());

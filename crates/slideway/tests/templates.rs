@@ -230,7 +230,7 @@ fn carriage() {
     let model = model("carriage", &[("L", 0.06), ("a", 0.12), ("mu", 0.2)]);
     let report = drive(&model, &DriveOptions::default()).unwrap();
     let told =
-        "It would jam from mu = 0.25 (1.25 times this friction), and the force gives no warning before.";
+        "It would jam from mu = 0.25 (1.25 times this friction), and the force does not grow beforehand.";
     assert!(report.conclusion.iter().any(|sentence| sentence == told), "{:?}", report.conclusion);
     assert_locks_at("carriage", 0.25, &[("L", 0.06), ("a", 0.12)]);
 }

@@ -338,10 +338,10 @@ impl Painter<'_> {
         }
     }
 
-    /// "W = 300 N", or the name alone.
+    /// "W = 300 N", or the name alone. Without a sign: the arrow points where it acts.
     fn named(&self, name: &str, value: Option<f64>, si: &str) -> String {
         let value = value.filter(|_| !self.options.locking);
-        value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", self.shown(value, si)))
+        value.map_or_else(|| name.to_owned(), |value| format!("{name} = {}", self.shown(value.abs(), si)))
     }
 
     /// Weights; of gravity that does not act downwards, as in a slope or seen from above, only a part may be given.

@@ -353,9 +353,12 @@ impl Painter<'_> {
         }
     }
 
-    /// A value in the unit of the model for quantities with this SI unit.
+    /// A value in the unit of the model for quantities with this SI unit; a force, which stands alone, in another one that was
+    /// typed, or the SI unit, where it reads better.
     fn shown(&self, value: f64, si: &str) -> String {
-        quantity(value, &self.mechanism.units.of(si))
+        let units = &self.mechanism.units;
+        let unit = if si == "N" { units.clone().suited_to_most(si, &[value]).of(si) } else { units.of(si) };
+        quantity(value, &unit)
     }
 
     fn slide(&self, joint: JointId) -> Option<Slide> {

@@ -5,7 +5,7 @@ use super::scene::Scene;
 use super::units::known_forces;
 use super::{ContactStates, SceneOptions, View, number, quantity, scene, signs};
 use slideway::configuration::Configuration;
-use slideway::mechanism::Mechanism;
+use slideway::mechanism::{Contact, Mechanism};
 use slideway::report::{JointMode, MarginsMissing, Rejection, Solution, SolveReport, Status};
 use slideway::solve::{Locking, locking};
 
@@ -147,8 +147,27 @@ impl Drawn<'_> {
         let options = SceneOptions { force_scale, ..SceneOptions::overview() };
         let states = ContactStates::default();
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
-        let caption = Caption { heading: "The mechanism, to scale".to_owned(), ..Caption::default() };
+        let heading = "The mechanism, to scale".to_owned();
+        let caption = Caption { heading, lines: self.preloads(), ..Caption::default() };
         Panel { scene, caption, force_scale }
+    }
+
+    /// The friction of preloads, a line for each contact that has some: "Preload of lower.front: 9.81 N of friction."
+    fn preloads(&self) -> Vec<String> {
+        let Mechanism { contacts, units, .. } = self.mechanism;
+        let shown = |force: f64| {
+            let unit = units.clone().suited_to_most("N", &[force]).of("N");
+            quantity(force, &unit)
+        };
+        let line = |contact: &Contact| {
+            let friction = match contact.preload {
+                [0.0, 0.0] => return None,
+                [one, other] if one == other => shown(one),
+                [one, other] => format!("{} (at +) and {} (at \u{2212})", shown(one), shown(other)),
+            };
+            Some(format!("Preload of {}: {friction} of friction.", contact.name))
+        };
+        contacts.iter().filter_map(line).collect()
     }
 
     /// Why a mechanism without solution jams, if it is friction that locks it and that is known.

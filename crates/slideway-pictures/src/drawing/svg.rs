@@ -2,7 +2,7 @@
 
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, head};
 use crate::coordinate::{NotFinite, coordinate, finished};
-use crate::escaped;
+use crate::printed;
 use crate::theme::Theme;
 use crate::typeface::STACK;
 use std::fmt::Write;
@@ -58,8 +58,8 @@ pub(crate) fn document(scene: &Scene, frame: &Frame<'_>) -> String {
         coordinate(width),
         coordinate(height)
     );
-    let _ = writeln!(out, "<title>{}</title>", escaped(frame.title));
-    let _ = writeln!(out, "<desc>{}</desc>", escaped(frame.description));
+    let _ = writeln!(out, "<title>{}</title>", printed(frame.title));
+    let _ = writeln!(out, "<desc>{}</desc>", printed(frame.description));
     if let Colours::Theme(theme) = frame.colours {
         let _ = writeln!(out, "<style>\n{}</style>", rules(&Colour::of_theme(&theme)));
     }
@@ -127,7 +127,7 @@ fn shape(out: &mut String, class: &str, shape: &Shape) {
                 coordinate(text.at.x),
                 coordinate(text.at.y),
                 coordinate(text.size),
-                escaped(&text.text)
+                printed(&text.text)
             )
         }
     };

@@ -41,10 +41,9 @@ pub fn motion_figure(history: &History) -> Figure {
         let coordinates =
             mechanism.coordinates.iter().filter(|coordinate| coordinate.kind.is_angle() == angles);
         for together in samples.that_move_as_far(coordinates.map(|coordinate| coordinate.name.to_string())) {
-            let curves: Vec<(String, String)> =
-                together.into_iter().map(|name| (name.clone(), name)).collect();
+            let curves = numbered(together.into_iter().map(|name| (name.clone(), name)));
             panels.push(match &curves[..] {
-                [(name, _)] => builder.panel(&format!("Coordinate {name}"), (name, unit), &curves),
+                [(name, ..)] => builder.panel(&format!("Coordinate {name}"), (name, unit), &curves),
                 _ => builder.panel("Coordinates", ("coordinate", unit), &curves),
             });
         }
@@ -60,11 +59,8 @@ pub fn motion_figure(history: &History) -> Figure {
         ("work of drives", "energy.drives"),
         ("lost in impulses", "energy.impulses"),
     ];
-    let energies: Vec<(String, String)> = energies
-        .iter()
-        .filter(|(_, column)| samples.is_used(column))
-        .map(|(name, column)| ((*name).to_owned(), (*column).to_owned()))
-        .collect();
+    let energies = energies.iter().filter(|(_, column)| samples.is_used(column));
+    let energies = numbered(energies.map(|(name, column)| ((*name).to_owned(), (*column).to_owned())));
     panels.push(builder.panel("Energy", ("energy", "J"), &energies));
     let jams = jams(history);
     panels.iter_mut().for_each(|panel| panel.marked.clone_from(&jams));
@@ -302,9 +298,9 @@ impl Samples {
     }
 
     /// The times in which one of these forces, given by name and column, is not determined.
-    fn left_open(&self, forces: &[(String, String)], seconds: &Unit) -> Vec<Zone> {
+    fn left_open(&self, forces: &[Named], seconds: &Unit) -> Vec<Zone> {
         let is_open = |piece: &&Series| {
-            let columns = forces.iter().filter_map(|(_, column)| piece.column(column));
+            let columns = forces.iter().filter_map(|(_, column, _)| piece.column(column));
             columns.flat_map(|column| &column.values).any(Option::is_none)
         };
         let zone = |piece: &Series| {
@@ -346,13 +342,13 @@ struct Builder<'s> {
 }
 
 impl Builder<'_> {
-    /// A panel with the time as its axis; curves are given by their names and columns.
-    fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[(String, String)]) -> Panel {
+    /// A panel with the time as its axis; curves are given by their names, columns and colours.
+    fn panel(&mut self, title: &str, (name, unit): (&str, &str), curves: &[Named]) -> Panel {
         let mut drawn = Vec::new();
         let shown_in = [self.units.of("s"), self.units.of(unit)];
-        for (colour, (name, column)) in curves.iter().enumerate() {
+        for (name, column, colour) in curves {
             let index = self.branches.len();
-            self.branches.push(branch(name, colour));
+            self.branches.push(branch(name, *colour));
             let pieces = self.samples.pieces.iter();
             drawn.extend(pieces.map(|piece| curve(piece, ["t", column], &shown_in, index)));
         }
@@ -373,8 +369,8 @@ impl Builder<'_> {
     /// The gaps of contacts that are open at times, with rings at impacts.
     fn gaps(&mut self, history: &History) -> Option<Panel> {
         let contacts = history.mechanism.contacts.iter();
-        let gaps = contacts.map(|one| (one.name.to_string(), format!("{}.gap", one.name)));
-        let gaps: Vec<_> = gaps.filter(|(_, column)| self.samples.is_used(column)).collect();
+        let gaps = numbered(contacts.map(|one| (one.name.to_string(), format!("{}.gap", one.name))));
+        let gaps: Vec<_> = gaps.into_iter().filter(|(_, column, _)| self.samples.is_used(column)).collect();
         if gaps.is_empty() {
             return None;
         }
@@ -398,7 +394,13 @@ impl Builder<'_> {
         let hinges = mechanism.friction_circles.iter();
         let hinges = hinges.map(|circle| mechanism.joints[circle.joint.index()].name.to_string());
         let hinges = hinges.map(|name| (name.clone(), format!("{name}.force")));
-        let (contacts, hinges): (Vec<_>, Vec<_>) = (contacts.collect(), hinges.collect());
+        let (mut contacts, hinges) = (numbered(contacts), numbered(hinges));
+        // What never presses is told by its gap.
+        let first_of_modes = contacts.len().max(hinges.len());
+        let is_pressed = |samples: &Samples, one: &Named| samples.is_used(&one.1);
+        if contacts.iter().any(|one| is_pressed(self.samples, one)) {
+            contacts.retain(|one| is_pressed(self.samples, one));
+        }
         let titles = ["Normal forces and contact modes", "Hinge forces and modes"];
         let mut panels = Vec::new();
         if !contacts.is_empty() || hinges.is_empty() {
@@ -407,8 +409,8 @@ impl Builder<'_> {
         if !hinges.is_empty() {
             panels.push((if panels.is_empty() { titles[1] } else { "Hinge forces" }, "hinge force", hinges));
         }
-        let modes = bands(history, panels[0].2.len());
-        let panel = |(title, quantity, forces): (&str, &str, Vec<(String, String)>)| {
+        let modes = bands(history, first_of_modes);
+        let panel = |(title, quantity, forces): (&str, &str, Vec<Named>)| {
             let mut panel = self.panel(title, (quantity, "N"), &forces);
             panel.y.range = range_of_what_lasts(&panel.curves);
             panel.zones = self.samples.left_open(&forces, &self.units.of("s"));
@@ -426,8 +428,10 @@ impl Builder<'_> {
             interval.to > interval.from && interval.phase.joints.contains(&JointPhase::Sticking)
         };
         let contacts = history.mechanism.contacts.iter();
-        let frictions = contacts.map(|one| (one.name.to_string(), format!("{}.friction_force", one.name)));
-        let frictions: Vec<_> = frictions.filter(|(_, column)| self.samples.is_used(column)).collect();
+        let frictions =
+            numbered(contacts.map(|one| (one.name.to_string(), format!("{}.friction_force", one.name))));
+        let frictions: Vec<_> =
+            frictions.into_iter().filter(|(_, column, _)| self.samples.is_used(column)).collect();
         if frictions.is_empty() || !history.phases.iter().any(sticks) {
             return None;
         }
@@ -436,6 +440,13 @@ impl Builder<'_> {
         panel.zones = self.samples.left_open(&frictions, &self.units.of("s"));
         Some(panel)
     }
+}
+
+/// The name of a curve, its column and its colour: a contact has the same one in all panels.
+type Named = (String, String, usize);
+
+fn numbered(curves: impl Iterator<Item = (String, String)>) -> Vec<Named> {
+    curves.enumerate().map(|(colour, (name, column))| (name, column, colour)).collect()
 }
 
 /// One column over another, each in its unit.
@@ -453,21 +464,30 @@ fn bands(history: &History, first: usize) -> Vec<Band> {
     let mechanism = &history.mechanism;
     let seconds = mechanism.units.of("s");
     let mut reader = history.reader();
+    // Patterns with the same words have one colour: signs of contacts without friction tell nothing.
+    let mut places: Vec<(String, usize)> = Vec::new();
     let mut meanings: Vec<(String, String)> = Vec::new();
     let mut bands: Vec<Band> = Vec::new();
     for group in groups(history) {
         let pattern = group[0].phase.pattern(mechanism);
         let is_one = group.iter().all(|phase| phase.phase.pattern(mechanism) == pattern);
         let key = if is_one { pattern } else { String::new() };
-        let place = meanings.iter().position(|(known, _)| *known == key).unwrap_or_else(|| {
+        let known = places.iter().find(|(known, _)| *known == key).map(|(_, place)| *place);
+        let place = known.unwrap_or_else(|| {
             let words = reader.configuration(group[0].from);
             let words = words.map(|configuration| modes_in_words(mechanism, configuration, &group[0].phase));
-            let meaning = match words.filter(|_| is_one) {
-                Some(words) => format!("{}:\u{a0}{words}", signs(&key)),
-                None => "modes too short to be distinguished".to_owned(),
+            let (words, meaning) = match words.filter(|_| is_one) {
+                Some(words) if words.is_empty() => (words, signs(&key)),
+                Some(words) => (words.clone(), format!("{}:\u{a0}{words}", signs(&key))),
+                None => (String::new(), "modes too short to be distinguished".to_owned()),
             };
-            meanings.push((key, meaning));
-            meanings.len() - 1
+            let same = meanings.iter().position(|(other, _)| *other == words && !words.is_empty());
+            let place = same.unwrap_or_else(|| {
+                meanings.push((words, meaning));
+                meanings.len() - 1
+            });
+            places.push((key, place));
+            place
         });
         let (colour, meaning) = (first + place, meanings[place].1.clone());
         let [from, to] = [group[0].from, group[group.len() - 1].to].map(|time| seconds.number_of(time));

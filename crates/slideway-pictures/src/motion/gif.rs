@@ -13,7 +13,9 @@ use std::collections::HashMap;
 use thiserror::Error;
 
 /// The greatest width and height (pixels).
-const GREATEST_SIDE: f64 = 1000.0;
+const GREATEST_SIDE: f64 = 1200.0;
+/// Pixels for each unit of the drawing: letters of 13 units are as large as those of a text.
+const PIXELS: f64 = 1.5;
 /// One of so many frames is asked for its colours.
 const SAMPLED: usize = 8;
 /// Delays are counted in these (1/s).
@@ -45,8 +47,8 @@ pub enum GifFault {
 }
 
 impl Animation {
-    /// Writes a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, one pixel for
-    /// each unit of the drawing and at most 1000 on each side. The callback receives the number of frames
+    /// Writes a GIF that runs in a loop: the frames of [`Animation::to_svg`] in their time, 1.5 pixels for
+    /// each unit of the drawing and at most 1200 on each side. The callback receives the number of frames
     /// that are done, and ends the work when it breaks. The bytes do not depend on the number of threads.
     ///
     /// Delays are hundredths of a second; they are shared out so that all frames together take the time that
@@ -121,7 +123,7 @@ fn delays(animation: &Animation) -> Result<Vec<u16>, GifFault> {
 
 /// Pixels for each unit of the drawing.
 fn scale(animation: &Animation) -> f64 {
-    still_size(animation).into_iter().fold(1.0, |scale, side| scale.min(GREATEST_SIDE / side))
+    still_size(animation).into_iter().fold(PIXELS, |scale, side| scale.min(GREATEST_SIDE / side))
 }
 
 fn drawn(animation: &Animation, frame: &FrameOf, scale: f64) -> Result<Pixmap, RasterFault> {

@@ -5,7 +5,7 @@ use super::page::{colours, force_scale, samples, speed, view_box};
 use crate::coordinate::{NotFinite, exact, finished, finished_parts};
 use crate::drawing::svg::{Colour, rules};
 use crate::drawing::{Class, EXAGGERATED, Point};
-use crate::escaped;
+use crate::printed;
 use crate::typeface::STACK;
 use std::fmt::Write;
 
@@ -48,7 +48,7 @@ fn html(animation: &Animation) -> String {
          #log li.now {{ background: {body}; font-weight: bold; }}\n\
          kbd {{ border: 1px solid {muted}; border-radius: 4px; padding: 0 0.3em; }}\n\
          {rules}</style>\n<h1>{title}</h1>\n",
-        title = escaped(&animation.title),
+        title = printed(&animation.title),
         background = theme.background,
         ink = theme.ink,
         muted = theme.muted,
@@ -60,7 +60,7 @@ fn html(animation: &Animation) -> String {
         out,
         "<svg viewBox=\"{}\" role=\"img\" aria-label=\"{}\"><g id=\"drawing\"></g>{}</svg>\n{}",
         view_box(animation, 0.0),
-        escaped(&animation.title),
+        printed(&animation.title),
         force_scale(animation),
         key_of_page(animation),
     );

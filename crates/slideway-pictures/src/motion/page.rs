@@ -4,9 +4,9 @@ use super::animation::{Animation, FrameOf};
 use crate::coordinate::{NotFinite, coordinate, finished, tenths, thousandths};
 use crate::drawing::svg::{Colour, class_name, markup, rules};
 use crate::drawing::{Class, Element, Point, Shape, nice, quantity, sample};
-use crate::escaped;
 use crate::plot::TITLE;
 use crate::plot::svg::wrapped;
+use crate::printed;
 use crate::typeface::{STACK, width};
 use std::fmt::Write;
 
@@ -56,7 +56,7 @@ fn svg(animation: &Animation) -> String {
         coordinate(size.x),
         coordinate(HEAD + size.y + foot.height),
         [corner.x, corner.y - HEAD, size.x, HEAD + size.y + foot.height].map(coordinate).join(" "),
-        escaped(&animation.title),
+        printed(&animation.title),
         rules(&Colour::of_theme(theme)),
     );
     let _ = writeln!(
@@ -226,7 +226,7 @@ fn title_and_key(animation: &Animation, foot: &Foot, out: &mut String) {
     let space = animation.bounds.size().x - 2.0 * INDENT;
     let mut words = |class: &str, place: Point, size: f64, words: &str| {
         let [x, y] = [place.x, place.y].map(coordinate);
-        let words = escaped(words);
+        let words = printed(words);
         let _ =
             writeln!(out, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\" font-size=\"{size}\">{words}</text>");
     };
@@ -258,7 +258,7 @@ pub(super) fn force_scale(animation: &Animation) -> String {
         "{arrow}<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{}</text>\n",
         text[0],
         text[1],
-        escaped(&quantity(force, &animation.force_unit))
+        printed(&quantity(force, &animation.force_unit))
     )
 }
 
@@ -301,7 +301,7 @@ fn words_below(animation: &Animation, first: f64, words: &str, out: &mut String)
             "<text class=\"s-words\" x=\"{}\" y=\"{}\" font-size=\"{WORDS}\">{}</text>",
             coordinate(animation.bounds.least.x + INDENT),
             coordinate(animation.bounds.greatest.y + first + LINE * line as f64),
-            escaped(text)
+            printed(text)
         );
     }
 }

@@ -7,7 +7,7 @@ use crate::drawing::{Sheet, number, quantity, signs};
 use slideway::Report;
 use slideway::limits::{LimitsReport, ModeLimits};
 use slideway::report::{
-    JointMode, LoadSharing, ModeEndCause, Proof, Solution, SolveReport, followed, precise,
+    JointMode, LoadSharing, ModeEndCause, Proof, Solution, SolveReport, followed, of_contacts, precise,
 };
 use slideway::units::{Unit, Units};
 
@@ -148,15 +148,16 @@ fn solutions(report: &SolveReport) -> String {
 
 pub(super) fn state(report: &SolveReport, heading: &str, solution: &Solution) -> String {
     let units = &report.model.units;
+    let of_contacts = &of_contacts(&solution.contacts, units);
     let [force, friction, sliding] = [("Normal force", "N"), ("Friction", "N"), ("Sliding", "m/s")]
-        .map(|(what, si)| text(&units.of(si).title(what)));
+        .map(|(what, si)| text(&of_contacts.of(si).title(what)));
     let deflection = if has_deflections(solution) {
         format!("\n<th class=\"number\">{}</th>", text(&units.of("m").title("Deflection")))
     } else {
         String::new()
     };
     // Hinges alone have no contacts.
-    let contacts = match contacts(solution, units) {
+    let contacts = match contacts(solution, of_contacts) {
         rows if rows.is_empty() => rows,
         rows => format!(
             "<table class=\"contacts\">\n<thead><tr><th>Contact</th><th class=\"number\">{force}</th>\

@@ -2,7 +2,7 @@
 
 use super::colours::ModeColours;
 use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
-use super::limits::{in_parentheses, in_words, stroke_of, without_empty_ends};
+use super::limits::{in_parentheses, in_words, present, stroke_of, without_empty_ends};
 use crate::drawing::signs;
 use slideway::drive::{Approach, BlowUp, Course, CourseDirection, CourseRow, DriveReport, Sense};
 use slideway::report::{Verdict, precise};
@@ -130,7 +130,8 @@ impl Builder<'_> {
             _ => "effort".to_owned(),
         };
         let y = Axis { name, unit: shown.name().to_owned(), ..Axis::default() };
-        Panel { curves, marked: self.marked(), ..self.panel("Effort".to_owned(), y) }
+        let marked = self.marked().into_iter().chain(present(&self.course.vary)).collect();
+        Panel { curves, marked, ..self.panel("Effort".to_owned(), y) }
     }
 
     /// The efficiency in per cent, where it has a meaning.
@@ -151,7 +152,8 @@ impl Builder<'_> {
             }
         }
         let y = Axis { name: "efficiency".to_owned(), unit: "%".to_owned(), ..Axis::default() };
-        Panel { curves, ..self.panel(title, y) }
+        let marked = present(&self.course.vary).into_iter().collect();
+        Panel { curves, marked, ..self.panel(title, y) }
     }
 
     fn panel(&self, title: String, y: Axis) -> Panel {

@@ -9,6 +9,8 @@ use crate::theme::Theme;
 /// Distances of ticks that are aimed at (px).
 const BETWEEN_X: f64 = 80.0;
 const BETWEEN_Y: f64 = 48.0;
+/// An axis with fewer ticks cannot be read.
+const LEAST_TICKS: usize = 3;
 /// Length of ticks (px).
 const TICK: f64 = 5.0;
 
@@ -24,6 +26,10 @@ pub(crate) struct FrameAxis {
 impl FrameAxis {
     /// Ticks of an axis of this length (px), and their texts.
     fn ticks(&self, length: f64, between: f64) -> (Vec<f64>, Vec<String>) {
+        // What has no name is no axis.
+        if self.name.is_empty() {
+            return (Vec::new(), Vec::new());
+        }
         // At least three, however short the axis is.
         #[expect(
             clippy::cast_possible_truncation,
@@ -35,9 +41,15 @@ impl FrameAxis {
             let texts = ticks.iter().map(|&tick| tick_text(tick, tick, tick)).collect();
             return (ticks, texts);
         }
-        let step =
-            if self.unit == "deg" { angle_step(self.range, wanted) } else { tick_step(self.range, wanted) };
-        let ticks = ticks(self.range, step);
+        // Multiples of a step may miss both ends of the axis: then a finer one.
+        let of = |wanted: usize| {
+            let is_angle = self.unit == "deg";
+            let step = if is_angle { angle_step(self.range, wanted) } else { tick_step(self.range, wanted) };
+            (step, ticks(self.range, step))
+        };
+        let tried = [wanted, 2 * wanted].map(of);
+        let [coarse, fine] = tried;
+        let (step, ticks) = if coarse.1.len() < LEAST_TICKS { fine } else { coarse };
         let greatest = self.range[0].abs().max(self.range[1].abs());
         let texts = ticks.iter().map(|&tick| tick_text(tick, step, greatest)).collect();
         (ticks, texts)

@@ -1,12 +1,15 @@
 //! The figure of limits: a quantity along every mode over what is varied.
 
 use super::colours::ModeColours;
-use super::figure::{Axis, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline};
+use super::figure::{
+    Axis, Band, Branch, Curve, End, Figure, Hatching, MarkedValue, Panel, Stroke, Zone, headline,
+};
 use super::scale::extent;
 use slideway::limits::{
-    self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem,
+    self, CountLimits, Curves, Known, LimitsReport, ModeLimits, Quantity, RangeWithoutProblem, VariedQuantity,
 };
 use slideway::report::{ModeEndCause, Verdict, precise};
+use slideway::units::Unit;
 
 /// Values closer than this share of the range are one value in a plot.
 const TOGETHER: f64 = 1e-6;
@@ -41,8 +44,20 @@ pub fn limits_figure(report: &LimitsReport, curves: &Curves) -> Figure {
             ));
         }
     }
+    if panels.iter().all(|panel| panel.curves.is_empty()) {
+        let scale = report.vary.shown_in.scale();
+        let directions =
+            std::iter::once(&report.counts).chain(report.reversed.iter().map(|other| &other.counts));
+        panels.iter_mut().zip(directions).for_each(|(panel, counts)| {
+            (panel.y, panel.zones) = (Axis::default(), Vec::new());
+            panel.bands = bands(counts, scale);
+            panel.marked.extend(changes(counts, scale));
+        });
+    }
     without_empty_ends(&mut panels);
-    let shown = format!("{} over {}", name(curves.quantity), in_words(&report.vary.name));
+    let is_drawn = panels.iter().any(|panel| !panel.curves.is_empty());
+    let quantity = if is_drawn { name(curves.quantity) } else { "what it does" };
+    let shown = format!("{quantity} over {}", in_words(&report.vary.name));
     Figure {
         title: headline(report.title.as_deref(), &shown),
         subtitle: String::new(),
@@ -83,7 +98,10 @@ impl Builder<'_> {
             },
             y: Axis { name, unit: self.curves.units.of(unit).name().to_owned(), ..Axis::default() },
             zones: zones(counts, without, [report.vary.from, report.vary.to], scale),
-            marked: marked(modes, [report.vary.from, report.vary.to], scale),
+            marked: marked(modes, [report.vary.from, report.vary.to], scale)
+                .into_iter()
+                .chain(present(&report.vary))
+                .collect(),
             curves: drawn,
             ..Panel::default()
         }
@@ -142,6 +160,46 @@ impl Builder<'_> {
             self.branches.len() - 1
         })
     }
+}
+
+/// Where one interval gives way to the next.
+fn changes(counts: &[CountLimits], scale: f64) -> impl Iterator<Item = MarkedValue> {
+    let label = |at: f64| precise(at).replace('-', "\u{2212}");
+    let inner = counts.iter().skip(1).map(move |count| count.from / scale);
+    inner.map(move |at| MarkedValue { at, label: label(at), asymptote: false })
+}
+
+/// What happens in each interval, where no mode has a curve.
+fn bands(counts: &[CountLimits], scale: f64) -> Vec<Band> {
+    let mut meanings: Vec<String> = Vec::new();
+    let band = |count: &CountLimits| {
+        let meaning = match (count.starts.as_deref(), count.solutions) {
+            (Some(starts), _) if !starts.is_empty() => starts.join(", or "),
+            _ if count.continuum => "infinitely many solutions".to_owned(),
+            (_, 0) => "no solution".to_owned(),
+            (_, 1) => "one solution".to_owned(),
+            (_, several) => format!("{several} solutions"),
+        };
+        let known = meanings.iter().position(|known| *known == meaning);
+        let colour = known.unwrap_or_else(|| {
+            meanings.push(meaning.clone());
+            meanings.len() - 1
+        });
+        let sampled = if count.known == Known::Sampled { " (sampled)" } else { "" };
+        Band { from: count.from / scale, to: count.to / scale, colour, meaning: meaning + sampled }
+    };
+    counts.iter().map(band).collect()
+}
+
+/// The value that the model has, where it is in the range.
+pub(super) fn present(vary: &VariedQuantity) -> Option<MarkedValue> {
+    the_model(vary.value, [vary.from, vary.to], &vary.shown_in)
+}
+
+pub(super) fn the_model(value: f64, [from, to]: [f64; 2], shown_in: &Unit) -> Option<MarkedValue> {
+    let at = shown_in.number_of(value);
+    let label = format!("{}: the model", precise(at).replace('-', "\u{2212}"));
+    (from..=to).contains(&value).then_some(MarkedValue { at, label, asymptote: false })
 }
 
 /// Returns the plotted quantity in words.

@@ -67,6 +67,7 @@ const SINGLE_HEIGHT: f64 = 380.0;
 const STACKED_HEIGHT: f64 = 300.0;
 const FEW: usize = 3;
 const LOW_HEIGHT: f64 = 200.0;
+const ONLY_BANDS: f64 = 24.0;
 /// Space around everything (px).
 pub(crate) const MARGIN: f64 = 14.0;
 /// Font sizes (px).
@@ -131,6 +132,9 @@ pub fn to_svg(figure: &Figure, theme: &Theme) -> Result<String, NotFinite> {
         // Of panels with the same axis below, the last one names it.
         let is_named = figure.panels.get(index + 1).is_none_or(|next| next.x != panel.x);
         let sides = [MARGIN + left, WIDTH - MARGIN];
+        // Of bands alone the frame needs no height.
+        let is_empty = panel.curves.is_empty() && panel.bars.is_empty() && panel.points.is_empty();
+        let height = if is_empty && !panel.bands.is_empty() { ONLY_BANDS } else { height };
         let layout = PanelLayout::new((figure, panel), sides, (top, height), is_named);
         layout.draw(theme, &mut svg);
         legend = if figure.one_legend {

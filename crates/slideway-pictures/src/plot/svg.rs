@@ -1,8 +1,8 @@
-//! Writing SVG: elements with attributes, numbers of two decimals, escaped text.
+//! Writing SVG: elements with attributes, numbers of two decimals, printed text.
 
 pub(crate) use crate::coordinate::coordinate;
 use crate::coordinate::{NotFinite, attribute, finished};
-use crate::escaped;
+use crate::printed;
 use crate::typeface::STACK;
 pub(crate) use crate::typeface::width;
 use std::fmt::Write;
@@ -24,7 +24,7 @@ impl Svg {
     /// Adds an element around a text.
     pub(crate) fn text(&mut self, name: &str, attributes: &[(&str, &str)], content: &str) {
         self.start(name, attributes);
-        let _ = writeln!(self.body, ">{}</{name}>", escaped(content));
+        let _ = writeln!(self.body, ">{}</{name}>", printed(content));
     }
 
     /// Begins an element; [`Svg::close`] ends it.
@@ -75,7 +75,7 @@ impl Svg {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" font-family=\"{STACK}\" role=\"img\">\n<title>{}</title>\n\
              <rect class=\"background\" width=\"{width}\" height=\"{height}\" fill=\"{background}\"/>\n{}</svg>\n",
-            escaped(title),
+            printed(title),
             self.body
         ))
     }
@@ -106,6 +106,7 @@ pub(crate) fn wrapped(text: &str, size: f64, space: f64) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::escaped;
 
     #[test]
     fn text() {

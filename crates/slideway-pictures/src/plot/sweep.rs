@@ -402,7 +402,18 @@ impl SweepPlot {
     fn marked(&self) -> Vec<MarkedValue> {
         let near = NARROW * (self.line.range[1] - self.line.range[0]);
         let together = self.marks.chunk_by(|one, other| other.at - one.at <= near);
-        together.map(|marks| self.label(marks, near)).collect()
+        let ends = together.map(|marks| self.label(marks, near));
+        // Single points that cannot be solved leave gaps in the curves.
+        let is_mark = |at: f64| self.marks.iter().any(|mark| (mark.at - at).abs() <= near);
+        let is_gap =
+            |run: &&Run| run.hatching == Hatching::Falling && run.to - run.from <= near && !is_mark(run.from);
+        let gap = |run: &Run| {
+            let mark = Mark { point: run.first, at: run.from, breakpoint: Breakpoint::NotSolved };
+            self.label(&[mark], near)
+        };
+        let gaps = self.runs.iter().filter(is_gap).map(gap);
+        let Line { value, range, shown_in, .. } = &self.line;
+        ends.chain(gaps).chain(value.and_then(|value| limits::the_model(value, *range, shown_in))).collect()
     }
 
     fn label(&self, marks: &[Mark], near: f64) -> MarkedValue {

@@ -130,8 +130,8 @@ impl Naming {
             to: end(mode.to.at),
             from_is: ModeEndCause::new(&mode.from.cause, found.nothing_is_left(mode.from.at, true), closed),
             to_is: ModeEndCause::new(&mode.to.cause, found.nothing_is_left(mode.to.at, false), closed),
-            from_at: self.ends_at(&mode.from.cause, &found.circles),
-            to_at: self.ends_at(&mode.to.cause, &found.circles),
+            from_at: self.ends_at(&mode.from.cause, &found.circles, closed),
+            to_at: self.ends_at(&mode.to.cause, &found.circles, closed),
             reactions: self.mechanism.contacts.iter().enumerate().map(reaction).collect(),
             orientation: branch.map(|branch| branch.orientation),
             hinge_forces: branch.map_or_else(Vec::new, |branch| self.hinge_forces(branch, &found.circles)),
@@ -152,11 +152,17 @@ impl Naming {
     }
 
     /// The contacts, guided sliders or hinges at which a mode ends.
-    fn ends_at(&self, cause: &EndCause, circles: &[usize]) -> Vec<String> {
+    fn ends_at(
+        &self,
+        cause: &EndCause,
+        circles: &[usize],
+        closed: impl Fn(usize) -> Option<bool>,
+    ) -> Vec<String> {
         match cause {
-            EndCause::SideChange(contacts)
-            | EndCause::GapCloses(contacts)
-            | EndCause::GreatestNormalForce(contacts) => self.contacts(contacts),
+            EndCause::SideChange(contacts) => self.contacts(&ModeEndCause::of_those(contacts, closed)),
+            EndCause::GapCloses(contacts) | EndCause::GreatestNormalForce(contacts) => {
+                self.contacts(contacts)
+            }
             EndCause::OutputBound(bounds) => self.mechanism.guided_sliders(bounds),
             EndCause::HingeUnloaded(hinges) => {
                 hinges.iter().map(|&hinge| self.hinge(circles[hinge]).to_owned()).collect()

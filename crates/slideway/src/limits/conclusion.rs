@@ -3,6 +3,7 @@
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
+use crate::report::{HOLDS, ModeEndCause};
 use crate::units::number::counted;
 
 /// Verdict that a mechanism with drives has one solution.
@@ -38,8 +39,16 @@ pub(super) fn conclusion(
             _ => joined.push(piece),
         }
     }
+    // What was sampled and is narrower than its digits show is where two states meet.
+    let is_seen = |piece: &Piece| {
+        let [from, to] = [piece.from, piece.to].map(|end| varied.shown_in.precise_number(end));
+        piece.known != Known::Sampled || piece.from == piece.to || from != to
+    };
+    if joined.iter().any(is_seen) {
+        joined.retain(is_seen);
+    }
     let gaps = forwards.without_mode_problem.iter().map(|gap| [gap.from, gap.to]).collect::<Vec<_>>();
-    let summary = summary(&joined, &gaps, varied);
+    let summary = summary(&joined, &gaps, varied).map(|summary| summary + &lifting(&forwards.modes, varied));
     let is_plain = joined.iter().all(|piece| piece.verdict == MOVES || piece.verdict == JAMS);
     let pieces = joined.into_iter().map(|piece| piece.sentence(varied, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
@@ -59,6 +68,28 @@ pub(super) fn conclusion(
     // Where a single value has a state of its own there is more to say.
     let summary = summary.filter(|_| forwards.between_faces_at.is_empty());
     Conclusion { says_all: is_plain && summary.is_some(), summary, sentences }
+}
+
+/// Where contacts lift off: " foot lifts off from speed = 43.88 rad/s on." Empty where none does.
+fn lifting(modes: &[ModeLimits], varied: &Varied) -> String {
+    let mut sentences: Vec<String> = Vec::new();
+    let ends = modes.iter().flat_map(|mode| {
+        [(mode.from, mode.from_is, &mode.from_at, "below"), (mode.to, mode.to_is, &mode.to_at, "from")]
+    });
+    for (at, _, contacts, way) in ends.filter(|(_, is, ..)| *is == ModeEndCause::LiftsOff) {
+        let Some(at) = at else { continue };
+        let (names, lift) = (contacts.join(", "), ModeEndCause::LiftsOff.of_contacts(contacts.len() > 1));
+        let on = if way == "from" { " on" } else { "" };
+        let value = varied.shown_in.brief(at);
+        let at = if varied.is_friction_factor() {
+            format!("{value} times this friction")
+        } else {
+            format!("{} = {value}", varied.name)
+        };
+        sentences.push(format!(" {names} {lift} {way} {at}{on}."));
+    }
+    sentences.dedup();
+    sentences.concat()
 }
 
 /// The limit in one sentence, if the mechanism moves on one side of it and jams on the other, up to an end of the range or
@@ -142,7 +173,8 @@ impl Piece {
 fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
         let without = count.without_solution();
-        let starts = count.starts.as_deref().filter(|_| !count.continuum).map(starts_in_words);
+        let is_told = |starts: &&[String]| !count.continuum || **starts == [HOLDS];
+        let starts = count.starts.as_deref().filter(is_told).map(starts_in_words);
         let verdict = match (count.solutions, count.preload_gap_states) {
             _ if let Some(starts) = &starts => starts,
             _ if count.continuum => "infinitely many solutions",
@@ -160,10 +192,11 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
     direction.counts.iter().flat_map(pieces).collect()
 }
 
-/// "it starts in one way: base: closed, sticks", "it can start in 2 ways: tip: closed, sticks, or tip: opens"
+/// "it starts in one way: base: closed, slides forwards", "it can start in 2 ways: it holds, or tip: opens"
 fn starts_in_words(starts: &[String]) -> String {
     match starts {
         [] => "it can neither rest nor start".to_owned(),
+        [only] if only == HOLDS => HOLDS.to_owned(),
         [only] => format!("it starts in one way: {only}"),
         several => format!("it can start in {} ways: {}", several.len(), several.join(", or ")),
     }

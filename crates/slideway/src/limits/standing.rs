@@ -8,7 +8,7 @@ use super::varied::Varied;
 use crate::fault::Faults;
 use crate::modes::existence::{CountInterval, Existence};
 use crate::progress::Work;
-use crate::report::Status;
+use crate::report::{HOLDS, Status};
 use crate::scan::{Scan, Stretch, evenly, samples};
 
 /// Steps of the evenly spaced values.
@@ -66,7 +66,9 @@ fn of_value(varied: &Varied, at: f64, work: Work<'_>) -> Result<Found, Faults> {
         gap_states: report.preload_gap_states.len(),
         continuum: report.status == Status::Continuum,
     };
-    Ok(Found { numbers, starts: report.starts() })
+    // Of infinitely many states it counts that one of them is of rest.
+    let starts = if report.rests() { Some(vec![HOLDS.to_owned()]) } else { report.starts() };
+    Ok(Found { numbers, starts })
 }
 
 fn is_like(one: &Result<Found, Faults>, other: &Result<Found, Faults>) -> bool {

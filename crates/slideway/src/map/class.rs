@@ -83,7 +83,11 @@ pub enum ClassMeaning {
     /// Not decided: rounding hides whether there is a solution.
     Undecided,
     /// Infinitely many solutions.
-    Continuum,
+    Continuum {
+        /// Whether some of them is a state of rest.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        rests: bool,
+    },
     /// Too many patterns or solutions to find all of them.
     TooLarge,
     /// There is no mode problem, for this reason.
@@ -164,6 +168,8 @@ pub(super) struct States {
     pub(super) sides: Vec<Vec<ContactState>>,
     pub(super) gaps: Vec<String>,
     pub(super) continuum: bool,
+    /// Whether some of infinitely many states is one of rest.
+    pub(super) rests: bool,
     /// Whether a guided slider tips in a solution of the equations.
     pub(super) tips: bool,
     /// Whether it is open how many there are.
@@ -213,7 +219,7 @@ pub(super) fn class(
         };
     }
     if states.continuum {
-        return ClassMeaning::Continuum;
+        return ClassMeaning::Continuum { rests: states.rests };
     }
     if !moves(states) {
         return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };

@@ -81,7 +81,11 @@ impl Choice for ColourBy {
             "The factor by which all friction may grow before there is no solution or more than one",
         ),
         (Self::Jam, "jam", "Whether it can move as in the model, and in the opposite direction"),
-        (Self::Motion, "motion", "Whether each solution speeds up or slows down"),
+        (
+            Self::Motion,
+            "motion",
+            "What happens: whether it speeds up or slows down, and at rest whether it sticks, slides, tips or lifts off",
+        ),
         (Self::Effort, "effort", "The force or torque of the first drive, the least of several solutions"),
         (Self::Hold, "hold", "Whether it can stay at rest, its drives absent"),
     ];

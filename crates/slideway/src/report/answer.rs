@@ -7,6 +7,13 @@ use super::{
 };
 use crate::units::brief;
 
+/// What is left open where ranges of parameters are not followed.
+pub(crate) const AT_THE_MIDDLE: &str =
+    "parameters known within bounds are taken at the middle of their ranges";
+/// Of a block that keeps one corner on its face.
+pub(crate) const TIPS: &str = "it tips";
+/// Of a state that stays at rest.
+pub(crate) const HOLDS: &str = "it holds";
 /// The remedy where a search ended early.
 const MORE_TIME: &str = "Allow it more time.";
 /// The remedy at a boundary.
@@ -15,6 +22,16 @@ const NEARBY: &str = "Ask again with slightly more or less friction or load.";
 impl SolveReport {
     /// The verdict in a sentence: "It moves: push needs 36.36 N (20 N without friction)."
     pub fn verdict_in_words(&self) -> String {
+        let verdict = self.verdict();
+        if !self.open.iter().any(|open| open == AT_THE_MIDDLE) {
+            return verdict;
+        }
+        let verdict =
+            verdict.strip_prefix("It ").map_or_else(|| verdict.clone(), |rest| format!("it {rest}"));
+        format!("For the middle of the ranges of parameters: {verdict}")
+    }
+
+    fn verdict(&self) -> String {
         if self.partial && matches!(self.status, Status::One | Status::Several | Status::PreloadGap) {
             let states = if self.count == "0" { &self.gap_state_count } else { &self.count };
             let found = if states == "1" { "one solution" } else { &format!("{states} solutions") };
@@ -43,21 +60,31 @@ impl SolveReport {
         }
     }
 
-    /// Words for the joints that are at rest and may lift off, for each solution: "base: closed, sticks". None if no such joint
-    /// is at rest. Without numbers, so that the same start has the same words in another state.
+    /// Returns whether it holds: some of infinitely many states is one of rest.
+    pub(crate) fn rests(&self) -> bool {
+        self.continua.iter().any(|continuum| continuum.rests)
+    }
+
+    /// Words for the joints that are at rest and may lift off, for each solution: "base: closed, slides forwards", of one that
+    /// stays at rest "it holds". None if no such joint is at rest. Without numbers, so that the same start has the same words in
+    /// another state.
     pub(crate) fn starts(&self) -> Option<Vec<String>> {
         self.starts_in(|joint| joint.start.as_ref().unwrap_or(&joint.mode))
     }
 
     fn starts_in(&self, words: impl Fn(&JointMode) -> &String) -> Option<Vec<String>> {
         let start = |solution: &Solution| {
+            if solution.rests {
+                return HOLDS.to_owned();
+            }
             let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
             joints.map(|joint| format!("{}: {}", joint.name, words(joint))).collect::<Vec<_>>().join("; ")
         };
         (!self.at_rest.is_empty()).then(|| self.solutions.iter().map(start).collect())
     }
 
-    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, sticks."
+    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, slides forwards.", or
+    /// that it holds.
     fn start_in_words(&self) -> Option<String> {
         let starts = self.starts_in(|joint| &joint.mode)?;
         let unique = if self.every_load_has_one_state == Some(true) {
@@ -67,7 +94,13 @@ impl SolveReport {
         };
         Some(match (self.status, starts.as_slice()) {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
-            (Status::One, [only]) => format!("It starts in one way. {only}.{unique}"),
+            (Status::One, [only]) if only == HOLDS => format!("It holds.{unique}"),
+            (Status::One, [only]) => {
+                let tips =
+                    self.solutions.iter().flat_map(|one| &one.joints).any(|one| one.mode.contains(TIPS));
+                let starts = if tips { "It tips" } else { "It starts in one way" };
+                format!("{starts}. {only}.{unique}")
+            }
             (Status::Several, several) => {
                 format!("It can start in {} ways. {}.", several.len(), several.join(". Or "))
             }
@@ -76,7 +109,8 @@ impl SolveReport {
                     0 => String::new(),
                     more => format!(" {more} more states are determined."),
                 };
-                format!("The contacts at rest leave their forces open: `hold` has their ranges.{also}")
+                let holds = if self.rests() { "It holds. " } else { "" };
+                format!("{holds}The contacts at rest leave their forces open: `hold` has their ranges.{also}")
             }
         })
     }
@@ -200,13 +234,13 @@ impl SolveReport {
         let lifts = lifting_in_words(solution);
         if !solution.drives.is_empty() {
             let needs: Vec<String> = self.needs(solution);
-            return format!("It moves: {}.{lifts}", needs.join(", "));
+            return format!("It moves: {}{lifts}", needs.join(", "));
         }
         let changes: Vec<String> = self.changes(solution);
         match changes.as_slice() {
-            [] => format!("It has one solution.{lifts}"),
-            [change] => format!("It {change}.{lifts}"),
-            changes => format!("It moves: {}.{lifts}", changes.join(", ")),
+            [] => format!("It has one solution{lifts}"),
+            [change] => format!("It {change}{lifts}"),
+            changes => format!("It moves: {}{lifts}", changes.join(", ")),
         }
     }
 
@@ -227,11 +261,10 @@ impl SolveReport {
         solution.drives.iter().zip(&self.influence.drives).map(one).collect()
     }
 
-    /// The speeds: "slows down, and would stop after 0.1 s and 0.02 m", with names if there are several.
+    /// The speeds: "slows down at 17.3 m/s^2", with names if there are several.
     fn changes(&self, solution: &Solution) -> Vec<String> {
         let is_only = self.state.len() == 1;
-        let with_speed = self.state.iter().zip(&solution.coordinates);
-        let one = |(state, coordinate): (&super::CoordinateState, &super::CoordinateAcceleration)| {
+        let one = |coordinate: &super::CoordinateAcceleration| {
             let change = coordinate.speed?;
             let name = &coordinate.name;
             let words = match change {
@@ -243,26 +276,37 @@ impl SolveReport {
                 SpeedChange::MayStart if is_only => {
                     "has one solution; whether it starts to move is not decided".to_owned()
                 }
-                change if is_only => change.in_words().to_owned(),
-                change => format!("{name} {}", change.in_words()),
+                change if is_only => change.in_words().to_owned() + &self.how_fast(coordinate),
+                change => format!("{name} {}{}", change.in_words(), self.how_fast(coordinate)),
             };
-            // What lifts off goes on in another way.
-            let stop = coordinate.stop.as_ref().filter(|_| lifting_in_words(solution).is_empty());
-            let stop = stop.map_or_else(String::new, |stop| {
-                let units = &self.model.units;
-                let (time, way) = (units.of("s").brief(stop.time), units.of(state.unit).brief(stop.distance));
-                format!(" and would stop after {time} and {way}")
-            });
-            Some(words + &stop)
+            Some(words)
         };
-        with_speed.filter_map(one).collect()
+        solution.coordinates.iter().filter_map(one).collect()
+    }
+
+    /// How much a speed changes, behind the words for its change: " at 17.3 m/s^2". Empty of what does not change.
+    pub(super) fn how_fast(&self, coordinate: &super::CoordinateAcceleration) -> String {
+        match coordinate.speed {
+            Some(SpeedChange::SpeedsUp | SpeedChange::SlowsDown) => {
+                let unit = self.model.units.of(coordinate.unit);
+                format!(" at {}", unit.brief(coordinate.acceleration.abs()))
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// The solutions that it can take: those that are not unstable, or all if none is left.
+    pub(super) fn taken(&self) -> impl Iterator<Item = &Solution> {
+        let is_stable = |solution: &Solution| solution.attainability.verdict != Verdict::Unattainable;
+        let any = self.solutions.iter().any(is_stable);
+        self.solutions.iter().filter(move |solution| !any || is_stable(solution))
     }
 
     /// "It can move in 3 ways: push needs 36.36, 41 or 52 N."
     fn ways_in_words(&self) -> String {
-        let is_taken = |solution: &&Solution| solution.attainability.verdict != Verdict::Unattainable;
-        let taken: Vec<&Solution> = self.solutions.iter().filter(is_taken).collect();
-        let (ways, leaves) = match (taken.len(), self.solutions.len() - taken.len()) {
+        let is_unstable = |solution: &&Solution| solution.attainability.verdict == Verdict::Unattainable;
+        let unstable = self.solutions.iter().filter(is_unstable).count();
+        let (ways, leaves) = match (self.solutions.len() - unstable, unstable) {
             (0, _) => (format!("{} ways", self.count), " All of these states are unstable."),
             (_, 0) => (format!("{} ways", self.count), ""),
             (1, 1) => ("one way".to_owned(), " The other state is unstable."),
@@ -274,9 +318,8 @@ impl SolveReport {
         let efforts = |drive: &Drive| {
             let unit = self.model.units.of(drive.unit);
             let of =
-                |solution: &&Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
-            let told = if taken.is_empty() { self.solutions.iter().collect() } else { taken.clone() };
-            let mut efforts: Vec<String> = told.iter().filter_map(of).collect();
+                |solution: &Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
+            let mut efforts: Vec<String> = self.taken().filter_map(of).collect();
             let last = efforts.pop()?;
             let list = if efforts.is_empty() { last } else { format!("{} or {last}", efforts.join(", ")) };
             Some(format!("; {} needs {}", drive.name, unit.with(&list)))
@@ -327,25 +370,25 @@ impl SolveReport {
         format!("It moves in a preload gap, {loose} pressed by its preload alone{moves}.")
     }
 
-    /// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
+    /// "Up to 2.222 times this friction it moves in one way only, under any load."
     fn any_load_in_words(&self, margins: &Margins) -> Option<String> {
         let factor = margins.uniqueness?;
         let times = times(factor);
-        let [no, other] = if self.sharing.is_some() {
-            ["no load, play, misalignment or stiffness", "Other loads, play, misalignment or stiffness"]
+        let [any, other] = if self.sharing.is_some() {
+            ["any load, play, misalignment and stiffness", "Other loads, play, misalignment or stiffness"]
         } else {
-            ["no load", "Other loads"]
+            ["any load", "Other loads"]
         };
         Some(if factor < 1.0 {
             format!("{other} can jam it or leave it several ways to move, already from {times} on.")
         } else {
-            safe_up_to(no, &times)
+            safe_up_to(any, &times)
         })
     }
 
     fn without_margins(&self) -> Vec<String> {
         let least =
-            self.unique_at_least.map(|factor| safe_up_to("no load", &format!("at least {}", times(factor))));
+            self.unique_at_least.map(|factor| safe_up_to("any load", &format!("at least {}", times(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         least.or(missing).into_iter().collect()
@@ -372,18 +415,21 @@ fn end_in_words(margins: &Margins, at: &str) -> String {
     }
 }
 
-/// "Up to 2.222 times this friction no load jams it while it moves, or leaves it several ways to go on."
-fn safe_up_to(no: &str, times: &str) -> String {
-    format!("Up to {times} {no} jams it while it moves, or leaves it several ways to go on.")
+/// "Up to 2.222 times this friction it moves in one way only, under any load."
+fn safe_up_to(any: &str, times: &str) -> String {
+    format!("Up to {times} it moves in one way only, under {any}.")
 }
 
-/// Names the contacts that lift off in a solution: " base.front lifts off."
+/// The end of a sentence, and the contacts that lift off in a solution: ". tip lifts off.", of a block that keeps another
+/// corner on its face " and tips: base.front lifts off."
 fn lifting_in_words(solution: &Solution) -> String {
+    let before =
+        if solution.joints.iter().any(|joint| joint.mode.ends_with(TIPS)) { " and tips:" } else { "." };
     let opens = solution.contacts.iter().filter(|contact| contact.gap_acceleration.is_some());
     let names: Vec<&str> = opens.map(|contact| &*contact.name).collect();
     match names.as_slice() {
-        [] => String::new(),
-        [only] => format!(" {only} lifts off."),
-        several => format!(" {} lift off.", several.join(" and ")),
+        [] => ".".to_owned(),
+        [only] => format!("{before} {only} lifts off."),
+        several => format!("{before} {} lift off.", several.join(" and ")),
     }
 }

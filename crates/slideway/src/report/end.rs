@@ -78,6 +78,12 @@ impl ModeEndCause {
         }
     }
 
+    /// Of the contacts of an end by a change of side those that the cause is said of: where some lift off, these.
+    pub(crate) fn of_those(contacts: &[usize], closed: impl Fn(usize) -> Option<bool>) -> Vec<usize> {
+        let lift: Vec<usize> = contacts.iter().copied().filter(|&k| closed(k) == Some(true)).collect();
+        if lift.is_empty() { contacts.to_vec() } else { lift }
+    }
+
     /// The cause of an end beyond which there is no solution at all, or another one; `closed` says of a contact that may
     /// lift off whether it is closed in the mode.
     pub(crate) fn new(
@@ -87,7 +93,10 @@ impl ModeEndCause {
     ) -> Self {
         let all = |contacts: &[usize], state| contacts.iter().all(|&k| closed(k) == Some(state));
         match cause {
-            EndCause::SideChange(contacts) if all(contacts, true) => Self::LiftsOff,
+            // Others that change side there do so because it lifts off.
+            EndCause::SideChange(contacts) if contacts.iter().any(|&k| closed(k) == Some(true)) => {
+                Self::LiftsOff
+            }
             EndCause::SideChange(contacts) if all(contacts, false) => Self::Touches,
             EndCause::Range => Self::Range,
             EndCause::Singular if nothing_is_left => Self::Locking,

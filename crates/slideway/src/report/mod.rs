@@ -24,6 +24,7 @@ mod wrap;
 
 pub(crate) use crate::units::number;
 pub use crate::units::precise;
+pub(crate) use answer::{AT_THE_MIDDLE, HOLDS, TIPS};
 pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
@@ -33,8 +34,8 @@ pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
-pub use text::followed;
 pub(crate) use text::{count, ends_in_words, joints_in_words, spaced};
+pub use text::{followed, of_contacts};
 pub use tipping::Tipping;
 pub(crate) use tipping::without_solution;
 pub use undetermined::{OpenRange, Undetermined};
@@ -307,6 +308,9 @@ pub struct Solution {
     /// The patterns that were examined and give this same solution: on a boundary more than one, all of them if
     /// every pattern was tried (`patterns` of the report).
     pub patterns: Vec<String>,
+    /// Whether it stays at rest, as `hold` says of it: every contact sticks, and no coordinate moves or begins to move.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub rests: bool,
     /// Sign of each normal force, 0 where it vanishes.
     pub signs: Vec<i8>,
     /// True if some contact is about to change side: its normal force is zero within rounding.
@@ -740,6 +744,9 @@ pub struct Drive {
 pub struct Continuum {
     /// Its pattern.
     pub pattern: String,
+    /// Whether it stays at rest in all of it, as in [`Solution::rests`].
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub rests: bool,
     /// Normal forces of the contacts at each vertex (N); none if there are more than 4096 vertices and directions.
     pub vertices: Vec<Vec<f64>>,
     /// Directions in which the normal forces may grow without bound.

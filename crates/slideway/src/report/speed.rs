@@ -111,17 +111,17 @@ pub enum FromRest {
 }
 
 impl FromRest {
-    /// In words, after "once it is at rest,": "these loads would not move it again".
+    /// In words, after "at rest in this position,": "these loads would not move it".
     pub fn in_words(self) -> &'static str {
         match self {
-            Self::Rests => "these loads would not move it again",
-            Self::RestsOrMoves => "these loads may move it again or not",
+            Self::Rests => "these loads would not move it",
+            Self::RestsOrMoves => "these loads may move it or not",
             Self::MovesOn => "these loads would move it on",
             Self::MovesBack => "these loads would move it back",
-            Self::Moves => "these loads would move it again",
+            Self::Moves => "these loads would move it",
             Self::Neither => "it could neither stay so nor begin to move",
-            Self::Undecided => "it is not decided whether these loads would move it again",
-            Self::NotExamined => "these loads may move it again or not; ask `slideway hold`",
+            Self::Undecided => "it is not decided whether these loads would move it",
+            Self::NotExamined => "these loads may move it or not; ask `slideway hold`",
         }
     }
 }

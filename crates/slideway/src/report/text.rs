@@ -47,9 +47,9 @@ impl Report for SolveReport {
 
 impl SolveReport {
     /// Returns the remark that friction exceeds the loads, with how to ask whether it jams. Returns `None` if
-    /// no solution slows down although the loads push it.
+    /// no state that it takes slows down although the loads push it.
     pub fn remark(&self) -> Option<String> {
-        self.solutions.iter().any(slows_though_pushed).then(|| FRICTION_EXCEEDS_LOADS.to_owned())
+        self.taken().any(slows_though_pushed).then(|| FRICTION_EXCEEDS_LOADS.to_owned())
     }
 
     /// The ranges in which infinitely many solutions lie: a sentence for each kind of quantity.
@@ -57,8 +57,8 @@ impl SolveReport {
         self.undetermined.as_ref().map_or_else(Vec::new, |open| open.in_words(&self.model.units))
     }
 
-    /// The speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down, and
-    /// would stop after 0.1 s and 0.2 m if nothing changed." Then what the loads do once it is at rest.
+    /// The speeds in a solution, a sentence for each coordinate that no drive moves: "It slows down at 17.3 m/s^2."
+    /// Then what the loads do at rest in this position.
     pub fn speeds_in_words(&self, solution: &Solution) -> Vec<String> {
         self.changes_in_words(solution).into_iter().chain(self.rest_in_words(solution)).collect()
     }
@@ -66,16 +66,10 @@ impl SolveReport {
     fn changes_in_words(&self, solution: &Solution) -> Vec<String> {
         let is_only = self.state.len() == 1;
         let mut sentences = Vec::new();
-        for (state, coordinate) in self.state.iter().zip(&solution.coordinates) {
+        for coordinate in &solution.coordinates {
             let Some(change) = coordinate.speed else { continue };
             let who = if is_only { "It" } else { &coordinate.name };
-            let mut line = format!("{who} {}", change.in_words());
-            if let Some(stop) = &coordinate.stop {
-                let units = &self.model.units;
-                let (time, distance) =
-                    (units.of("s").show(stop.time), units.of(state.unit).show(stop.distance));
-                let _ = write!(line, ", and would stop after {time} and {distance} if nothing changed");
-            }
+            let mut line = format!("{who} {}{}", change.in_words(), self.how_fast(coordinate));
             if self.rates_not_given.contains(&coordinate.name) {
                 line.push_str(" (the model gives no rate: it is taken as zero)");
             }
@@ -84,11 +78,22 @@ impl SolveReport {
         sentences
     }
 
-    /// "Once it is at rest, these loads would not move it again."
+    /// When and where a coordinate would stop with its present acceleration: "With this acceleration x would stop after 0.1 s
+    /// and 0.2 m."
+    fn stops_in_words<'r>(&'r self, solution: &'r Solution) -> impl Iterator<Item = String> + 'r {
+        let units = &self.model.units;
+        self.state.iter().zip(&solution.coordinates).filter_map(move |(state, coordinate)| {
+            let stop = coordinate.stop.as_ref()?;
+            let (time, distance) = (units.of("s").show(stop.time), units.of(state.unit).show(stop.distance));
+            Some(format!("With this acceleration {} would stop after {time} and {distance}.", state.name))
+        })
+    }
+
+    /// "At rest in this position, these loads would not move it."
     fn rest_in_words(&self, solution: &Solution) -> Option<String> {
         let slows = solution.coordinates.iter().any(|one| one.speed == Some(SpeedChange::SlowsDown));
         let from_rest = self.from_rest.filter(|_| slows)?;
-        Some(format!("Once it is at rest, {}.", from_rest.in_words()))
+        Some(format!("At rest in this position, {}.", from_rest.in_words()))
     }
 
     /// How far all friction may grow before the answer changes, in words; empty where there is nothing to
@@ -191,6 +196,9 @@ impl Text<'_> {
         let is_said = is_only && solution.drives.is_empty() && report.rates_not_given.is_empty();
         let mut speeds =
             if is_said && !self.is_verbose() { Vec::new() } else { report.changes_in_words(solution) };
+        if self.is_verbose() {
+            speeds.extend(report.stops_in_words(solution));
+        }
         if is_only {
             speeds.extend(report.rest_in_words(solution));
         }
@@ -499,6 +507,7 @@ fn closest_row(mode: &ClosestMode) -> Vec<String> {
 }
 
 fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<String>>) {
+    let units = &of_contacts(contacts, units);
     let [force, speed, couple, pressure] = ["N", "m/s", "N m", "Pa"].map(|si| units.of(si));
     let scale = contacts.iter().map(|contact| contact.normal_force.abs()).fold(0.0, f64::max);
     let has_couple = contacts.iter().any(|contact| contact.couple.is_some());
@@ -542,6 +551,13 @@ fn contact_table(contacts: &[Contact], units: &Units) -> (Vec<String>, Vec<Vec<S
         row
     };
     (header, contacts.iter().map(row).collect())
+}
+
+/// The units with that of forces in which most of those of these contacts read well.
+pub fn of_contacts(contacts: &[Contact], units: &Units) -> Units {
+    let forces = contacts.iter().flat_map(|contact| [contact.normal_force, contact.friction_force]);
+    let forces: Vec<f64> = forces.filter(|force| *force != 0.0).collect();
+    units.clone().suited_to_most("N", &forces)
 }
 
 /// Coordinates, drives, hinges and bodies: name, what, value, unit.

@@ -392,6 +392,7 @@ impl<'a> Answer<'a> {
         report::Solution {
             pattern: pattern(state.pattern),
             patterns: state.patterns.clone(),
+            rests: false,
             signs: state.signs.clone(),
             on_boundary: state.on_boundary
                 && (floating.is_empty() || (0..state.signs.len()).any(|k| is_about_to_change(&k))),

@@ -38,6 +38,7 @@ impl Answer<'_> {
         };
         mode.set.is_continuum().then(|| Continuum {
             pattern: pattern(&mode.pattern),
+            rests: false,
             motion,
             motion_along: start.map_or_else(Vec::new, |start| {
                 directions.iter().map(|direction| along(start, direction)).collect()

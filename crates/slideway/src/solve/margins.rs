@@ -257,17 +257,15 @@ pub(super) fn mode_margin(
     let names = |contacts: &[usize]| -> Vec<String> {
         contacts.iter().map(|&k| mechanism.contacts[k].name.to_string()).collect()
     };
+    let closed = |contact| mechanism.is_closed(pattern, contact);
     let cause = &end.cause;
     let ends_with = match cause {
         EndCause::Range | EndCause::Reversal | EndCause::NoProblem => report::ModeEndCause::Nothing,
-        cause => {
-            report::ModeEndCause::new(cause, nothing_is_left, |contact| mechanism.is_closed(pattern, contact))
-        }
+        cause => report::ModeEndCause::new(cause, nothing_is_left, closed),
     };
     let contacts = match cause {
-        EndCause::SideChange(contacts)
-        | EndCause::GapCloses(contacts)
-        | EndCause::GreatestNormalForce(contacts) => names(contacts),
+        EndCause::SideChange(contacts) => names(&report::ModeEndCause::of_those(contacts, closed)),
+        EndCause::GapCloses(contacts) | EndCause::GreatestNormalForce(contacts) => names(contacts),
         _ => Vec::new(),
     };
     report::ModeMargin { factor: end.at.is_finite().then_some(end.at), ends_with, contacts }

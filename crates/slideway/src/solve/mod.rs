@@ -80,7 +80,7 @@ use crate::model::{Model, ParameterRange};
 use crate::modes::{SearchOptions, SearchResult, search};
 use crate::one_face;
 use crate::progress::{Callback, Progress};
-use crate::report::{SolveReport, Status, finite};
+use crate::report::{AT_THE_MIDDLE, SolveReport, Status, finite};
 use answer::Answer;
 use std::ops::ControlFlow;
 
@@ -257,8 +257,7 @@ fn rates_not_given(model: &Model) -> Vec<String> {
 
 /// That ranges are not followed, if there are some.
 fn taken_at_the_middle(ranges: &[ParameterRange]) -> Option<String> {
-    let taken = "parameters known within bounds are taken at the middle of their ranges";
-    (!ranges.is_empty()).then(|| taken.to_owned())
+    (!ranges.is_empty()).then(|| AT_THE_MIDDLE.to_owned())
 }
 
 /// The middle of each range, as the only value.

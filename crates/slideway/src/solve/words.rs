@@ -6,6 +6,7 @@
 use crate::ids::ContactId;
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::SliderKind;
+use crate::report::TIPS;
 use nalgebra::Vector2;
 
 /// The contact mode of a sliding joint.
@@ -107,7 +108,7 @@ impl GuideInWords {
             [_] | [0 | 1, 0 | 1] => "closed".to_owned(),
             [front, ..] => {
                 let [stays, opens] = if *front < 0 { [-1.0, 1.0] } else { [1.0, -1.0] };
-                format!("on its {} corner, the {} one opens: it tips", self.end(stays), self.end(opens))
+                format!("on its {} corner, the {} one opens: {TIPS}", self.end(stays), self.end(opens))
             }
             [] => String::new(),
         }

@@ -41,13 +41,38 @@ fn verdict(report: &HoldReport) -> String {
         HoldVerdict::HoldsUntilPushed => {
             "It holds. Once pushed it keeps sliding: kinetic friction is lower than static.".to_owned()
         }
-        HoldVerdict::HoldsOrSlips => "It may hold, or it may start to slide: do not rely on it.".to_owned(),
+        HoldVerdict::HoldsOrSlips => {
+            let may = "It may hold, or it may start to slide: do not rely on it.";
+            format!("{may}{}", if falls_freely(report) { FALLS_FREELY } else { "" })
+        }
         HoldVerdict::Moves => moves(report),
         HoldVerdict::Neither => {
             "It can neither stay at rest nor start to slide with finite accelerations.".to_owned()
         }
         HoldVerdict::DoesNotHold => "It does not hold.".to_owned(),
     }
+}
+
+/// Why something may slide that would hold: what a designer of a bracket that carries its own weight has to know.
+const FALLS_FREELY: &str = " While it slides nothing presses its guides; let down gently it holds.";
+
+/// Forces up to this part of the greatest at rest press nothing.
+const NOTHING: f64 = 1e-12;
+
+/// Whether in every motion that begins no contact is pressed, and at rest all forces have bounds: they grow with the loads then, so
+/// that it holds while the loads are let on little by little.
+fn falls_freely(report: &HoldReport) -> bool {
+    let is_zero = |range: &Range| {
+        let ends = [range.least, range.greatest];
+        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.greatest_at_rest()))
+    };
+    let nothing_presses = |release: &Release| {
+        let contacts = &release.reactions.contacts;
+        !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
+    };
+    let rest = report.at_rest.as_ref();
+    let is_wedged = report.sharing.is_some() || rest.is_none_or(|rest| !rest.wedging.is_empty());
+    !is_wedged && !report.releases.is_empty() && report.releases.iter().all(nothing_presses)
 }
 
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."
@@ -105,15 +130,29 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
         (Some(0.0), None, _) => format!("any `{name}`"),
         (None, Some(0.0), _) => format!("any reversed `{name}`"),
         (Some(0.0), Some(greatest), "") => format!("up to {} times `{name}`", brief(greatest)),
+        (Some(least), None, "") if least < 0.0 => {
+            format!("any `{name}`, and reversed up to {} times it", brief(-least))
+        }
         (Some(least), None, "") => format!("{} times `{name}` or more", brief(least)),
+        (None, Some(greatest), "") if greatest < 0.0 => {
+            format!("reversed, {} times it or more", brief(-greatest))
+        }
         (None, Some(greatest), "") => format!("{} times `{name}` or less", brief(greatest)),
         (Some(least), Some(greatest), "") if least == greatest => {
             format!("exactly {} times `{name}`", brief(least))
+        }
+        (Some(least), Some(greatest), "") if least < 0.0 && greatest > 0.0 => {
+            let [back, on] = [-least, greatest].map(brief);
+            let reversed = if back == on { "as well".to_owned() } else { format!("up to {back} times") };
+            format!("up to {on} times `{name}`, reversed {reversed}")
         }
         (Some(least), Some(greatest), "") => {
             format!("{} to {} times `{name}`", brief(least), brief(greatest))
         }
         (Some(least), None, _) => format!("`{name}` from {} on", unit.brief(least)),
+        (None, Some(greatest), _) if greatest < 0.0 => {
+            format!("reversed `{name}` from {} on", unit.brief(-greatest))
+        }
         (None, Some(greatest), _) => format!("`{name}` up to {}", unit.brief(greatest)),
         (Some(least), Some(greatest), _) if least == greatest => {
             format!("`{name}` of {} only", unit.brief(least))
@@ -135,7 +174,13 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
         [] if load.unit.is_empty() => format!("It does not hold with any multiple of `{name}`."),
         [] => format!("No `{name}` holds it."),
         held if holds_none(held) && !is_open => format!("It holds no `{name}`, however small."),
-        ranges => format!("It {holds} {}.", ranges.iter().map(one).collect::<Vec<_>>().join(", or ")),
+        ranges => {
+            // What acts as it was named comes before what is reversed.
+            let (named, reversed): (Vec<&Range>, Vec<&Range>) =
+                ranges.iter().partition(|range| range.greatest.is_none_or(|greatest| greatest > 0.0));
+            let all: Vec<String> = named.into_iter().chain(reversed).map(one).collect();
+            format!("It {holds} {}.", all.join(", or "))
+        }
     }
 }
 
@@ -172,8 +217,8 @@ fn locks(load: &LoadReport, holds_all: bool) -> String {
         };
     }
     let by_itself = match load.certain_from {
-        Some(certain) => format!("`{name}` by itself is held only {}.", at(certain)),
-        None => format!("`{name}` by itself need not wedge it: do not rely on it."),
+        Some(certain) => format!("By itself `{name}` is held only {}.", at(certain)),
+        None => format!("By itself `{name}` need not wedge it: do not rely on it."),
     };
     let wedges = if load.self_locking { "While wedged it holds" } else { "If it were wedged it would hold" };
     format!("{wedges} any `{name}` {}. {by_itself}", at(first))

@@ -1,5 +1,6 @@
 //! What the analysis of standstill tells, as plain data.
 
+use super::ranges::greatest;
 use crate::one_face::NormalForces;
 use crate::report::{CoordinateState, LoadSharing, OneFaceHint};
 use crate::units::Units;
@@ -108,6 +109,11 @@ impl HoldReport {
         let of_load = self.load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
         let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
         self.holds || self.undecided == of_load + of_wedging
+    }
+
+    /// The greatest magnitude of the reactions at rest (N or N m); 0 if it cannot rest.
+    pub(super) fn greatest_at_rest(&self) -> f64 {
+        self.at_rest.as_ref().map_or(0.0, |rest| greatest(&rest.reactions.ranges()))
     }
 
     /// The normal forces at rest, or where it begins to move.

@@ -11,6 +11,8 @@ pub struct Line {
     pub name: String,
     /// The least and the greatest value, in SI units.
     pub range: [f64; 2],
+    /// Its value in the model, if it is known.
+    pub value: Option<f64>,
     /// The unit in which values are to be shown: that of both ends of the range, as written, else that of the
     /// model.
     pub shown_in: Unit,
@@ -33,10 +35,11 @@ impl Sweep {
         };
         let model = &self.plan.model;
         let varied = Varied::new(model, &axis.quantity.name).ok();
+        let value = varied.as_ref().and_then(|varied| varied.present().ok());
         let shown_in = varied.map(|varied| varied.typed_as(axis.given.as_ref()).shown_in);
         let shown_in = shown_in.unwrap_or_else(|| model.units.of(axis.quantity.unit(model)));
         let logarithmic = matches!(axis.values, Values::Logarithmic { .. });
         let (name, units) = (axis.quantity.name.clone(), model.units.clone());
-        (range[0] < range[1]).then_some(Line { name, range, shown_in, units, logarithmic })
+        (range[0] < range[1]).then_some(Line { name, range, value, shown_in, units, logarithmic })
     }
 }

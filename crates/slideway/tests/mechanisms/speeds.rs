@@ -89,9 +89,10 @@ fn a_peg_that_slows_down_stops_and_stays() {
     assert_eq!(report.from_rest, Some(FromRest::Rests));
     let text = report.text(Style::PLAIN.verbose(true).width(200));
     for sentence in [
-        "It slows down and would stop after 4.545e-7 s and 2.273e-7 mm.",
+        "It slows down at 2200 m/s^2.",
+        "With this acceleration x would stop after 4.5455e-7 s and 2.2727e-7 mm.",
         "It slows down because friction exceeds the loads. Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.",
-        "Once it is at rest, these loads would not move it again.",
+        "At rest in this position, these loads would not move it.",
         "This contact mode remains however much friction grows, but the motion slows down in it.",
     ] {
         assert!(text.contains(sentence), "{sentence}\n{text}");

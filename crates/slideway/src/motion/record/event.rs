@@ -41,15 +41,16 @@ pub fn modes_in_words(mechanism: &Mechanism, configuration: &Configuration, phas
     let sliders = sliding_joints(mechanism);
     let words = Words { mechanism, configuration, sliders: &sliders };
     let one = |(index, joint): (usize, &JointId)| match phase.joints[index] {
-        JointPhase::Sticking => format!("{} sticks", words.name(*joint)),
-        JointPhase::Sliding(_) => words.mode(words.name(*joint), *joint, phase),
+        JointPhase::Sticking => Some(format!("{} sticks", words.name(*joint))),
+        JointPhase::Sliding(_) if words.needs_no_words(*joint) => None,
+        JointPhase::Sliding(_) => Some(words.mode(words.name(*joint), *joint, phase)),
     };
     let hinges = words.hinges(phase).filter_map(|(joint, state)| match state {
         JointPhase::Sticking => Some(format!("{} sticks", words.name(joint))),
         JointPhase::Sliding(sign) if sliders.is_empty() => Some(words.turns(joint, sign)),
         JointPhase::Sliding(_) => None,
     });
-    sliders.iter().enumerate().map(one).chain(hinges).collect::<Vec<String>>().join("; ")
+    sliders.iter().enumerate().filter_map(one).chain(hinges).collect::<Vec<String>>().join("; ")
 }
 
 /// The same with the direction in which each joint slides: "floor is flat on the lower guide, sliding to the
@@ -88,7 +89,8 @@ impl Words<'_> {
                 parts.extend(self.changes(causes, before, after));
                 parts.extend(self.changes_of_turning(causes, before, after));
             } else {
-                parts.extend(self.sliders.iter().enumerate().map(|(index, joint)| {
+                let told = self.sliders.iter().enumerate().filter(|(_, joint)| !self.needs_no_words(**joint));
+                parts.extend(told.map(|(index, joint)| {
                     format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
                 }));
                 parts.extend(self.hinges(after).map(|(joint, state)| match state {
@@ -186,7 +188,10 @@ impl Words<'_> {
         let one = |(index, joint): (usize, &JointId)| {
             let name = self.name(*joint);
             let stops = causes.contains(&Cause::Stops(*joint));
-            if let Some(lifts) = self.lifting(index, *joint, [before, after]) {
+            if self.needs_no_words(*joint) {
+                return None;
+            }
+            if let Some(lifts) = self.lifting(causes, index, *joint, [before, after]) {
                 return Some(lifts);
             }
             let told = match (before.joints[index], after.joints[index]) {
@@ -231,7 +236,13 @@ impl Words<'_> {
     }
 
     /// That contacts of a joint lift off or come to touch, if they do.
-    fn lifting(&self, index: usize, joint: JointId, [before, after]: [&Phase; 2]) -> Option<String> {
+    fn lifting(
+        &self,
+        causes: &[Cause],
+        index: usize,
+        joint: JointId,
+        [before, after]: [&Phase; 2],
+    ) -> Option<String> {
         let slider = self.mechanism.slider(joint)?;
         let open = |phase: &Phase| -> Vec<bool> {
             slider.contacts.iter().map(|contact| phase.is_open(self.mechanism, contact.index())).collect()
@@ -246,14 +257,17 @@ impl Words<'_> {
             Some((corner, _)) if opens => {
                 let how = match after.joints[index] {
                     JointPhase::Sticking => "which sticks".to_owned(),
-                    JointPhase::Sliding(sign) => {
-                        let tangent = self.configuration.slide(self.mechanism, slider).tangent;
-                        format!("sliding {}", direction_in_words(tangent * sign))
-                    }
+                    JointPhase::Sliding(sign) => self.sliding(slider, sign),
                 };
                 Some(format!("{name} tips over {}, {how}", self.contact(*corner)))
             }
-            Some(_) => Some(format!("{name} touches: it {}", self.state("is now", index, joint, after))),
+            Some(_) => {
+                // That it lands has been said.
+                let lands = |cause: &Cause| matches!(cause, Cause::Lands { contact, .. } if slider.contacts.contains(contact));
+                let touches =
+                    if causes.iter().any(lands) { String::new() } else { format!("{name} touches: ") };
+                Some(format!("{touches}it {}", self.state("is now", index, joint, after)))
+            }
         }
     }
 
@@ -304,6 +318,15 @@ impl Words<'_> {
         format!("{} {verb} {sense} against {}", name(first.frame), name(second.frame))
     }
 
+    /// Whether a joint has neither friction nor contacts that lift off: which of its faces presses, and where it slides, changes
+    /// nothing.
+    fn needs_no_words(&self, joint: JointId) -> bool {
+        self.mechanism.slider(joint).is_some_and(|slider| {
+            let may_hold = |contact: &ContactId| self.mechanism.contacts[contact.index()].may_hold();
+            !slider.contacts.iter().any(may_hold) && !self.mechanism.may_lift_off(slider)
+        })
+    }
+
     /// Whether a joint without friction stands still: the direction of its phase means nothing then.
     fn stands_freely(&self, slider: &Slider) -> bool {
         slider.contacts.iter().all(|&contact| {
@@ -325,11 +348,22 @@ impl Words<'_> {
             }
             (JointPhase::Sliding(_), Some(slider)) if self.is_apart(slider, phase) => "is apart".to_owned(),
             (JointPhase::Sliding(sign), Some(slider)) => {
-                let tangent = self.configuration.slide(self.mechanism, slider).tangent;
-                format!("{}, sliding {}", self.mode(verb, joint, phase), direction_in_words(tangent * sign))
+                format!("{}, {}", self.mode(verb, joint, phase), self.sliding(slider, sign))
             }
             (JointPhase::Sticking, Some(slider)) => self.sticks(slider, phase),
             _ => "sticks".to_owned(),
+        }
+    }
+
+    /// "sliding to the right"; of a block that stands on the ground what moves is its guide: "stem sliding up".
+    fn sliding(&self, slider: &Slider, sign: f64) -> String {
+        let tangent = self.configuration.slide(self.mechanism, slider).tangent * sign;
+        match (slider.block.body(), slider.guide.body()) {
+            (None, Some(guide)) => {
+                let name = &self.mechanism.bodies[guide.index()].name;
+                format!("{name} sliding {}", direction_in_words(-tangent))
+            }
+            _ => format!("sliding {}", direction_in_words(tangent)),
         }
     }
 

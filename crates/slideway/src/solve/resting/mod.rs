@@ -35,7 +35,8 @@ use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::modes::{Certificate, ContactState};
 use crate::pattern::{Affine, AffineSet, sliding_in_words, sticking_in_words};
 use crate::report::{
-    Attainability, Continuum, HeldFriction, JointMode, Proof, Solution, SolveReport, SpeedChange, Verdict,
+    Attainability, Continuum, DrivenMotion, HeldFriction, JointMode, Proof, Solution, SolveReport,
+    SpeedChange, Verdict,
 };
 pub(super) use jam::impulses as jam_impulses;
 use nalgebra::DVector;
@@ -324,23 +325,51 @@ impl<'a> Resting<'a> {
         kept.attainability = self.attainability(point);
         kept.joints = self.words(point);
         self.tell_speeds(&mut kept);
+        let accelerations: Vec<f64> = kept.coordinates.iter().map(|one| one.acceleration).collect();
+        kept.rests = self.stands(&point.pattern) && self.rest(&accelerations);
         Some(kept)
+    }
+
+    /// Returns whether in a pattern every joint of the mechanism that friction may hold sticks, and no contact opens.
+    fn stands(&self, pattern: &Pattern) -> bool {
+        let mechanism = self.answer.mechanism;
+        let may_hold = |contact: &ContactId| mechanism.contacts[contact.index()].may_hold();
+        let held = mechanism.sliders().filter(|(_, slider)| slider.contacts.iter().any(may_hold));
+        let joints: Vec<JointId> = self.joints.iter().map(|joint| joint.joint).collect();
+        held.map(|(joint, _)| joint).all(|joint| joints.contains(&joint))
+            && pattern.starts.iter().all(|start| *start == Some(Start::Sticks))
+            && !(0..pattern.states.len()).any(|k| self.is_open(pattern, k))
+    }
+
+    /// The acceleration of a coordinate without its rounding.
+    fn without_rounding(&self, acceleration: f64, is_angle: bool) -> f64 {
+        let Mechanism { bodies, size, .. } = self.answer.mechanism;
+        let masses = bodies.iter().map(|body| body.mass).filter(|mass| *mass > 0.0);
+        let rounding = TOLERANCE * self.force / masses.min_by(f64::total_cmp).unwrap_or(1.0);
+        let rounding = if is_angle { rounding / size } else { rounding };
+        if acceleration.abs() <= rounding { 0.0 } else { acceleration }
+    }
+
+    /// Returns whether no coordinate with these accelerations moves or begins to move, nor a drive moves one.
+    fn rest(&self, accelerations: &[f64]) -> bool {
+        let mechanism = self.answer.mechanism;
+        let rests = |(index, acceleration): (usize, &f64)| {
+            let coordinate = &mechanism.coordinates[index];
+            let told = self.without_rounding(*acceleration, coordinate.kind.is_angle());
+            mechanism.is_free(index) && [coordinate.rate, told] == [0.0; 2]
+        };
+        accelerations.iter().enumerate().all(rests)
     }
 
     /// Tells what becomes of the coordinates at rest from their accelerations, which have no bounds here. Where contacts lift off
     /// the motion is not that of the coordinates alone.
     fn tell_speeds(&self, solution: &mut Solution) {
-        let Mechanism { bodies, size, .. } = self.answer.mechanism;
-        let masses = bodies.iter().map(|body| body.mass).filter(|mass| *mass > 0.0);
-        let lightest = masses.min_by(f64::total_cmp).unwrap_or(1.0);
-        let rounding = TOLERANCE * self.force / lightest;
         let opens = solution.contacts.iter().any(|contact| contact.gap_acceleration.is_some());
         for (one, coordinate) in solution.coordinates.iter_mut().zip(&self.answer.mechanism.coordinates) {
             if one.speed != Some(SpeedChange::MayStart) {
                 continue;
             }
-            let rounding = if coordinate.kind.is_angle() { rounding / size } else { rounding };
-            let told = if one.acceleration.abs() <= rounding { 0.0 } else { one.acceleration };
+            let told = self.without_rounding(one.acceleration, coordinate.kind.is_angle());
             let speed = SpeedChange::of(0.0, Some([told; 2]));
             one.speed = (!opens || speed != SpeedChange::StaysAtRest).then_some(speed);
         }
@@ -439,11 +468,14 @@ impl<'a> Resting<'a> {
             at: corners.iter().map(|corner| held(k, corner)).collect(),
             along: growths.iter().map(|growth| held(k, &(first + growth)) - held(k, first)).collect(),
         };
+        let motion: Vec<DrivenMotion> =
+            corners.iter().map(|corner| self.answer.driven_motion(&all(corner))).collect();
         Some(Continuum {
             pattern: pattern(&system.pattern.states),
+            rests: self.stands(&system.pattern) && motion.iter().all(|one| self.rest(&one.accelerations)),
             vertices: corners.iter().map(|corner| list(&point(corner))).collect(),
             directions: growths.iter().map(difference).collect(),
-            motion: corners.iter().map(|corner| self.answer.driven_motion(&all(corner))).collect(),
+            motion,
             motion_along: growths.iter().map(growth).collect(),
             tipping: Vec::new(),
             couple: None,

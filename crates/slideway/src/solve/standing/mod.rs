@@ -274,6 +274,7 @@ impl Standing<'_> {
         let start = corners.first();
         Continuum {
             pattern: pattern(&states(&mode.sides)),
+            rests: false,
             vertices: corners.iter().map(|corner| list(mode.forces(corner))).collect(),
             directions: growths
                 .iter()
