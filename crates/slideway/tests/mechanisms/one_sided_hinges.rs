@@ -7,7 +7,7 @@
 
 use crate::answers::{report_on, report_with};
 use crate::one_sided::{assert_states, fault};
-use crate::one_sided_systems::{Hinge, State, System, amax, random};
+use crate::one_sided_systems::{Contact, Hinge, State, System, amax, random};
 use crate::random_mechanisms::many;
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix4, Vector2};
 use proptest::collection::vec;
@@ -255,7 +255,7 @@ proptest! {
         let values = DMatrix::from_columns(&rows).singular_values();
         prop_assume!(system.joint_rows().len() < 3 * system.bodies.len() && rows.len() <= 3 * system.bodies.len());
         prop_assume!(values.min() > 0.05 * values.max());
-        prop_assume!(system.contacts.iter().any(|contact| contact.opens()));
+        prop_assume!(system.contacts.iter().any(Contact::opens));
         prop_assume!(system.contacts.iter().all(|contact| system.sliding_velocity(contact).abs() > 1e-3));
         prop_assume!(system.hinges.iter().all(|hinge| system.spin_of(hinge).abs() > 1e-3));
         let states = system.states_with_hinges();

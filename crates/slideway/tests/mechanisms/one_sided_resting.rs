@@ -549,6 +549,14 @@ fn what_else_rests_is_a_range_or_refused() {
         let [least, greatest] = [f64::min, f64::max].map(|of| rail.at.iter().copied().fold(rail.at[0], of));
         assert!(greatest - least > 1.0, "{rail:?}");
     }
+    // A drive holds the cart against 30 N: friction of the rail is free within mu (M + m) g, and so is the effort.
+    let drive = "[drives.keeper]\ncoordinate = \"x\"\nforce = { at = \"cart.C\", direction = \"0 deg\" }\n";
+    let report = report_on(&(cart.clone() + drive));
+    assert_eq!((report.status, report.continua.len()), (Status::Continuum, 1), "{report:?}");
+    let efforts: Vec<f64> = report.continua[0].motion.iter().map(|motion| motion.efforts[0]).collect();
+    let [least, greatest] = [f64::min, f64::max].map(|of| efforts.iter().copied().fold(efforts[0], of));
+    let free = 0.05 * 6.0 * GRAVITY;
+    assert!((least - (30.0 - free)).abs() < 1e-8 && (greatest - (30.0 + free)).abs() < 1e-8, "{efforts:?}");
     let guided = cart.replace("type = \"block_slider\"", "type = \"guided_slider\"");
     let faults = solve(&Model::parse(&guided).unwrap()).unwrap_err();
     let kinds: Vec<&FaultKind> = faults.sorted().iter().map(|fault| &fault.kind).collect();
