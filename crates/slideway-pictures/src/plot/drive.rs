@@ -131,7 +131,7 @@ impl Builder<'_> {
         };
         let y = Axis { name, unit: shown.name().to_owned(), ..Axis::default() };
         let marked = self.marked().into_iter().chain(present(&self.course.vary)).collect();
-        Panel { curves, marked, ..self.panel("Effort".to_owned(), y) }
+        Panel { marked, curves, ..self.panel("Effort".to_owned(), y) }
     }
 
     /// The efficiency in per cent, where it has a meaning.
@@ -153,7 +153,7 @@ impl Builder<'_> {
         }
         let y = Axis { name: "efficiency".to_owned(), unit: "%".to_owned(), ..Axis::default() };
         let marked = present(&self.course.vary).into_iter().collect();
-        Panel { curves, marked, ..self.panel(title, y) }
+        Panel { marked, curves, ..self.panel(title, y) }
     }
 
     fn panel(&self, title: String, y: Axis) -> Panel {

@@ -167,9 +167,8 @@ pub(super) struct States {
     /// The sides of the solutions; none with friction in hinges.
     pub(super) sides: Vec<Vec<ContactState>>,
     pub(super) gaps: Vec<String>,
-    pub(super) continuum: bool,
-    /// Whether some of infinitely many states is one of rest.
-    pub(super) rests: bool,
+    /// Where there are infinitely many: whether some of them is a state of rest.
+    pub(super) continuum: Option<bool>,
     /// Whether a guided slider tips in a solution of the equations.
     pub(super) tips: bool,
     /// Whether it is open how many there are.
@@ -199,8 +198,9 @@ pub(super) fn class(
     if states.undecided {
         return ClassMeaning::Undecided;
     }
-    let moves =
-        |states: &States| states.continuum || !(states.solutions.is_empty() && states.gaps.is_empty());
+    let moves = |states: &States| {
+        states.continuum.is_some() || !(states.solutions.is_empty() && states.gaps.is_empty())
+    };
     if colour_by == ColourBy::Jam {
         let as_in_model = moves(states);
         return match opposite.map(|opposite| opposite.map(Answer::states)) {
@@ -218,8 +218,8 @@ pub(super) fn class(
             }
         };
     }
-    if states.continuum {
-        return ClassMeaning::Continuum { rests: states.rests };
+    if let Some(rests) = states.continuum {
+        return ClassMeaning::Continuum { rests };
     }
     if !moves(states) {
         return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };
@@ -295,7 +295,8 @@ fn efforts(point: &Point, states: &States) -> Vec<f64> {
 fn states(parts: &Parts, between_faces: Vec<String>, work: Work<'_>) -> Option<States> {
     let found = parts.states_within_tolerances(&mut |_| work.flow())?;
     let mut told: Vec<&StateWithinTolerances> = Vec::new();
-    let mut states = States { gaps: between_faces, continuum: found.continuum, ..States::default() };
+    let mut states =
+        States { gaps: between_faces, continuum: found.continuum.then_some(false), ..States::default() };
     for state in &found.states {
         let StateWithinTolerances { sides, force, zero, shares } = state;
         let is_solution = parts.is_solution(sides);
@@ -324,7 +325,7 @@ fn states(parts: &Parts, between_faces: Vec<String>, work: Work<'_>) -> Option<S
         }
     }
     let is_empty = states.solutions.is_empty() && states.gaps.is_empty();
-    states.undecided = found.in_doubt && is_empty && !states.tips && !states.continuum;
+    states.undecided = found.in_doubt && is_empty && !states.tips && states.continuum.is_none();
     Some(states)
 }
 

@@ -64,8 +64,7 @@ fn of_report(report: &SolveReport, stages: &Stages) -> States {
     States {
         solutions: patterns(&report.solutions),
         gaps: patterns(&report.preload_gap_states),
-        continuum: report.status == Status::Continuum,
-        rests: report.rests(),
+        continuum: (report.status == Status::Continuum).then(|| report.rests()),
         starts: report.starts(),
         tips: !report.rejected.is_empty(),
         undecided: report.status == Status::Unknown,
