@@ -21,10 +21,17 @@ def near(first, second, relative):
     return all(abs(a - b) <= relative * scale for a, b in zip(first, second))
 
 
-def in_motion(solution, pattern):
-    """A pattern of `solve` as `simulate` writes it: what has lifted off is open."""
-    return "".join("0" if contact.get("gap_acceleration") else sign for contact, sign in zip(solution["contacts"], pattern)) \
-        + pattern[len(solution["contacts"]):]
+def in_motion(solution, pattern, names):
+    """A pattern of `solve` as `simulate` writes it for these contacts: what has lifted off, or is apart, is open, and what sticks has no side."""
+    sticking = {joint["name"] for joint in solution["joints"] if re.search(r"\b(sticks|rolls)\b", joint["mode"])}
+
+    def sign_of(contact, sign):
+        if contact.get("gap_acceleration"):
+            return "0"
+        return "=" if contact["name"].split(".")[0] in sticking else sign
+
+    signs = {contact["name"]: sign_of(contact, sign) for contact, sign in zip(solution["contacts"], pattern)}
+    return "".join(signs.get(name, "0") for name in names)
 
 
 def matched(first, second, relative=1e-7):
@@ -181,6 +188,11 @@ class Asked:
             if piece["solutions"] is not None and [piece["solutions"], piece["preload_gap_states"]] != true:
                 self.fault("limits: counts", command, report, f"{at}: {true}")
                 return
+            if "starts" in piece:       # contacts at rest: their ways to start are told in words, as many as counted
+                if len(piece["starts"]) != true[0]:
+                    self.fault("limits: starts", command, report, f"{at}: {true}")
+                    return
+                continue
             margin = 1e-3 * (high - low)
             modes = {m["pattern"] for m in report["modes"] if m["from"] + margin < value < m["to"] - margin}
             edge = {m["pattern"] for m in report["modes"] if abs(m["from"] - value) <= margin or abs(m["to"] - value) <= margin}
@@ -283,17 +295,18 @@ class Asked:
             self.fault("simulate: no start", command, report, f"solve: {answer['status']}")
             return
         first = report["events"][0]
-        contacts = len(report["contacts"])          # behind them the mode has the directions in which rough hinges turn
+        names = report["contacts"]
+        contacts = len(names)          # behind them the mode has the directions in which rough hinges turn
         modes = [b["mode"][:contacts] for b in first["branches"]] or [first["mode"][:contacts]]
-        allowed = {in_motion(s, p) for s in listed for p in s["patterns"]}
-        told = Counter(in_motion(s, s["pattern"]) for s in listed)
+        allowed = {in_motion(s, p, names) for s in listed for p in s["patterns"]}
+        told = Counter(in_motion(s, s["pattern"], names) for s in listed)
         if len(first["branches"]) > 1 and Counter(modes) != told or not set(modes) <= allowed:
             self.fault("simulate: modes", command, report, f"solve: {[s['pattern'] for s in listed]}")
             return
         if report["stop"] == report["until"] and len(report["events"]) == 1:
             rates = [(b["rate"] - a["rate"]) / step for a, b in zip(report["initial"], report["last"])]
             taken = next((b["mode"] for b in first["branches"] if b["taken"]), first["mode"])[:contacts]
-            true = [c["acceleration"] for s in listed if taken in {in_motion(s, p) for p in s["patterns"]} for c in s["coordinates"]]
+            true = [c["acceleration"] for s in listed if taken in {in_motion(s, p, names) for p in s["patterns"]} for c in s["coordinates"]]
             # The motion is as exact as its tolerance, over a short step.
             room = report["tolerance"] / step * max(map(abs, [*true, *(a["rate"] for a in report["initial"])]), default=0.0)
             if len(true) == len(rates) and any(abs(a - b) > room for a, b in zip(rates, true)):

@@ -14,8 +14,8 @@ use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
 use instances::structured::{
-    clamped_without_friction, game_with_two_costs, market, one_cell_of_low_rank, ones, pile,
-    pushed_without_friction, subset_sum, weights_with_subset,
+    clamped_without_friction, game_with_two_costs, market, mixed, one_cell_of_low_rank, ones, pile,
+    pushed_without_friction, subset_sum, weights_with_subset, without_free,
 };
 use instances::{chained_blocks, low_rank, planted_blocks, planted_complementarity, random_with_jumps};
 use slideway_modes::raw_problem::exact_json;
@@ -74,6 +74,9 @@ fn table() -> Vec<(&'static str, Make)> {
         ("jumps 14", || random_with_jumps(14, 1)),
         ("ave 1 28", || planted_blocks(28, 28, 1.0, 1)),
         ("ave 1 36", || planted_blocks(36, 36, 1.0, 1)),
+        ("free 20, pairs 12", || mixed(20, 12, 1)),
+        ("free 60, pairs 12", || mixed(60, 12, 1)),
+        ("free 60, pairs 12, without", || without_free(60, 12, 1)),
         ("low rank 1 of 60", || low_rank(60, 1)),
         ("low rank 2 of 16", || low_rank(16, 2)),
         ("low rank 2 of 20", || low_rank(20, 2)),

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use nalgebra::{DMatrix, DVector};
 use slideway_modes::ModeProblem;
+use slideway_modes::raw_problem::RawProblem;
 
 use super::random_numbers;
 
@@ -194,4 +195,33 @@ pub(crate) fn subsets_with_sum(weights: &[f64], target: f64) -> u64 {
         }
     }
     ways.get(&target.to_bits()).copied().unwrap_or(0)
+}
+
+/// `w = M z + q` with entries of `M` up to 3 and a planted solution in whole numbers; the first unknowns are free.
+fn mixed_numbers(free: usize, pairs: usize, seed: u64) -> (DMatrix<f64>, DVector<f64>) {
+    let mut small = whole_numbers(seed, 3);
+    let m = DMatrix::from_fn(free + pairs, free + pairs, |_, _| small());
+    let mut wide = whole_numbers(seed + 1000, 5);
+    let signed = DVector::from_fn(free + pairs, |_, _| wide());
+    let z = DVector::from_fn(free + pairs, |at, _| if at < free { signed[at] } else { signed[at].max(0.0) });
+    let w = &z - signed;
+    let q = w - &m * z;
+    (m, q)
+}
+
+/// A mixed problem with free unknowns.
+pub(crate) fn mixed(free: usize, pairs: usize, seed: u64) -> ModeProblem {
+    let (m, q) = mixed_numbers(free, pairs, seed);
+    RawProblem::MixedLinearComplementarity { m, q, free }.mode_problem().expect("shapes fit")
+}
+
+/// What is left of [`mixed`] without its free unknowns, rounded.
+pub(crate) fn without_free(free: usize, pairs: usize, seed: u64) -> ModeProblem {
+    let (m, q) = mixed_numbers(free, pairs, seed);
+    let block =
+        |row: usize, column: usize, rows: usize, columns: usize| m.view((row, column), (rows, columns));
+    let inverse = block(0, 0, free, free).into_owned().try_inverse().expect("regular");
+    let factor = block(free, 0, pairs, free) * inverse;
+    let own = block(free, free, pairs, pairs) - &factor * block(0, free, free, pairs);
+    complementarity(&own, q.rows(free, pairs) - factor * q.rows(0, free))
 }

@@ -275,28 +275,34 @@ fn decide_exactly(
     pattern: &[ContactState],
     proceed: &mut dyn FnMut() -> bool,
 ) -> Option<Decision> {
-    let contacts = pattern.len();
-    let echelon = IntegerSystem::new(problem.centre, pattern).eliminate_while(proceed)?;
-    if !echelon.is_regular() {
-        let system = IntegerSystem::new(problem.centre, pattern);
-        let set = ExactSet::of_system(&system, pattern, CORNERS, proceed)?;
-        return Some(Decision::Singular { set });
+    if let Some(solution) = ExactSolution::of_pattern(problem.centre, pattern, proceed) {
+        return Some(solution.decide(pattern));
     }
-    let solution = ExactSolution::new(&echelon, contacts);
-    let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;
-    let outside = |&contact: &usize| {
-        solution.sign_above(contact, false) == Sign::Negative
-            || in_gap(contact) && solution.sign_above(contact, true) == Sign::Positive
-    };
-    if let Some(contact) = (0..contacts).find(outside) {
-        return Some(Decision::NoSolution { contact });
+    let system = IntegerSystem::new(problem.centre, pattern);
+    let set = proceed().then(|| ExactSet::of_system(&system, pattern, CORNERS, proceed)).flatten()?;
+    Some(Decision::Singular { set })
+}
+
+impl ExactSolution {
+    /// What the pattern of the solved equations admits.
+    pub(crate) fn decide(&self, pattern: &[ContactState]) -> Decision {
+        let contacts = pattern.len();
+        let in_gap = |contact: usize| pattern[contact] == ContactState::Gap;
+        let outside = |&contact: &usize| {
+            self.sign(contact) == Sign::Negative
+                || in_gap(contact) && self.sign_above_one(contact) == Sign::Positive
+        };
+        if let Some(contact) = (0..contacts).find(outside) {
+            return Decision::NoSolution { contact };
+        }
+        let zero: Vec<usize> = (0..contacts).filter(|&k| self.sign(k) == Sign::Zero).collect();
+        let full_share: Vec<usize> =
+            (0..contacts).filter(|&k| in_gap(k) && self.sign_above_one(k) == Sign::Zero).collect();
+        let (unknowns, determinant) = (self.enclosures(), self.determinant());
+        if zero.is_empty() && full_share.is_empty() {
+            Decision::Solution { unknowns, determinant }
+        } else {
+            Decision::Boundary { unknowns, zero, full_share, determinant }
+        }
     }
-    let is_at = |contact: usize, one: bool| solution.sign_above(contact, one) == Sign::Zero;
-    let zero: Vec<usize> = (0..contacts).filter(|&k| is_at(k, false)).collect();
-    let full_share: Vec<usize> = (0..contacts).filter(|&k| in_gap(k) && is_at(k, true)).collect();
-    let (unknowns, determinant) = (solution.enclosures(), echelon.determinant_sign());
-    if zero.is_empty() && full_share.is_empty() {
-        return Some(Decision::Solution { unknowns, determinant });
-    }
-    Some(Decision::Boundary { unknowns, zero, full_share, determinant })
 }

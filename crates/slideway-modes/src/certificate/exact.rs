@@ -4,10 +4,11 @@ use std::cmp::Ordering;
 
 use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
-use dashu_ratio::RBig;
+use dashu_ratio::{RBig, Relaxed};
 use nalgebra::DMatrix;
 
-use super::elimination::{Echelon, IntegerSystem};
+use super::cramer::Cramer;
+use super::elimination::{IntegerSystem, sign_of};
 use super::enclosure::enclose_solution;
 use super::polyhedron::ExactSet;
 use crate::interval::{Interval, Sign};
@@ -50,12 +51,11 @@ pub enum ExactOutcome {
 /// ```
 pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], most: usize) -> ExactOutcome {
     assert_eq!(pattern.len(), problem.contacts(), "one state per contact");
-    let echelon = IntegerSystem::new(problem, pattern).eliminate();
-    if echelon.is_regular() {
-        let unknowns = echelon.solve_reduced(pattern.len());
-        return ExactOutcome::Regular { determinant: echelon.determinant_sign(), unknowns };
-    }
     let system = IntegerSystem::new(problem, pattern);
+    if let Some(solved) = system.solve() {
+        let determinant = solved.determinant_sign();
+        return ExactOutcome::Regular { determinant, unknowns: solved.fractions().concat() };
+    }
     let Some(set) = ExactSet::of_system(&system, pattern, most, &mut || true) else {
         unreachable!("nothing stops it")
     };
@@ -64,9 +64,7 @@ pub fn solve_exactly(problem: &ModeProblem, pattern: &[ContactState], most: usiz
 
 /// Solves `A X = R` in rational arithmetic, for the numbers as given: the columns of `X`. Returns `None` if `A` is singular.
 pub(crate) fn solve_matrix_exactly(matrix: &DMatrix<f64>, right: &DMatrix<f64>) -> Option<Vec<Vec<RBig>>> {
-    let echelon = IntegerSystem::of_matrices(matrix, right).eliminate();
-    let columns = matrix.ncols()..matrix.ncols() + right.ncols();
-    echelon.is_regular().then(|| columns.map(|column| echelon.solve_reduced(column)).collect())
+    IntegerSystem::of_matrices(matrix, right).solve().map(Cramer::fractions)
 }
 
 /// The exact unknowns of a solution of a pattern's equations that is known but for rounding, for one contact and those
@@ -105,10 +103,8 @@ pub fn solve_part_exactly(
     // Of a singular pattern, further equations may be needed to tell the unknowns apart.
     let systems = [(own.clone(), own), (all, others)].into_iter().filter(|(rows, _)| rows.len() <= most);
     for (rows, columns) in systems {
-        let echelon = IntegerSystem::of(problem, pattern, &rows, &columns).eliminate();
-        if echelon.is_regular() {
-            let unknowns = echelon.solve_reduced(columns.len());
-            return Some(columns.into_iter().zip(unknowns).collect());
+        if let Some(solved) = IntegerSystem::of(problem, pattern, &rows, &columns).solve() {
+            return Some(columns.into_iter().zip(solved.fractions().concat()).collect());
         }
     }
     None
@@ -182,37 +178,68 @@ pub(crate) fn enclose_sums(
 
 /// The sign of `D`.
 pub(crate) fn determinant_sign(problem: &ModeProblem, pattern: &[ContactState]) -> Sign {
-    IntegerSystem::new(problem, pattern).eliminate().determinant_sign()
+    IntegerSystem::new(problem, pattern).solve().map_or(Sign::Zero, |solved| solved.determinant_sign())
 }
 
 /// The signs that decide a regular pattern, without fractions.
-pub(super) struct ExactSolution {
+pub(crate) struct ExactSolution {
     numerators: Vec<IBig>,
+    /// Positive.
     denominator: IBig,
+    /// The sign of `D`.
+    determinant: Sign,
 }
 
 impl ExactSolution {
-    pub(super) fn new(echelon: &Echelon, contacts: usize) -> Self {
-        let (numerators, denominator) = echelon.solve(contacts);
-        let positive = denominator > IBig::ZERO;
-        let numerators = if positive { numerators } else { numerators.into_iter().map(|n| -n).collect() };
-        Self { numerators, denominator: if positive { denominator } else { -denominator } }
+    /// The equations of one pattern, solved; `None` if they are singular, or once `proceed` is `false`.
+    pub(crate) fn of_pattern(
+        problem: &ModeProblem,
+        pattern: &[ContactState],
+        proceed: &mut dyn FnMut() -> bool,
+    ) -> Option<Self> {
+        IntegerSystem::new(problem, pattern).solve_while(proceed).map(Self::from)
     }
 
-    /// The sign of unknown `contact` minus `offset` (0 or 1).
-    pub(super) fn sign_above(&self, contact: usize, one: bool) -> Sign {
-        let threshold = if one { &self.denominator } else { &IBig::ZERO };
-        match self.numerators[contact].cmp(threshold) {
-            Ordering::Less => Sign::Negative,
-            Ordering::Equal => Sign::Zero,
-            Ordering::Greater => Sign::Positive,
-        }
+    pub(super) fn determinant(&self) -> Sign {
+        self.determinant
+    }
+
+    /// The sign of the unknown of a contact.
+    pub(crate) fn sign(&self, contact: usize) -> Sign {
+        sign_of(&self.numerators[contact])
+    }
+
+    /// The sign of the unknown of a contact minus 1.
+    pub(super) fn sign_above_one(&self, contact: usize) -> Sign {
+        sign_of(&(&self.numerators[contact] - &self.denominator))
+    }
+
+    /// Gives a contact the opposite column.
+    pub(crate) fn turn(&mut self, contact: usize) {
+        let numerator = &mut self.numerators[contact];
+        *numerator = -std::mem::take(numerator);
+        self.determinant = -self.determinant;
     }
 
     /// The narrowest intervals around the unknowns.
     pub(super) fn enclosures(&self) -> Vec<Interval> {
-        let ratios = self.numerators.iter().map(|n| super::elimination::ratio(n.clone(), &self.denominator));
-        ratios.map(|value| Interval::around_ratio(&value)).collect()
+        let ratio =
+            |numerator: &IBig| Relaxed::from_parts_signed(numerator.clone(), self.denominator.clone());
+        self.numerators.iter().map(|numerator| Interval::around_relaxed(&ratio(numerator))).collect()
+    }
+}
+
+impl From<Cramer> for ExactSolution {
+    /// For the first right-hand side.
+    fn from(solved: Cramer) -> Self {
+        let determinant = solved.determinant_sign();
+        let Cramer { determinant: denominator, mut numerators } = solved;
+        let mut numerators = if numerators.is_empty() { Vec::new() } else { numerators.swap_remove(0) };
+        if determinant == Sign::Negative {
+            numerators.iter_mut().for_each(|numerator| *numerator = -std::mem::take(numerator));
+        }
+        let denominator = if determinant == Sign::Negative { -denominator } else { denominator };
+        Self { numerators, denominator, determinant }
     }
 }
 
@@ -236,8 +263,13 @@ impl Interval {
     /// assert_eq!(third.lower().next_up(), third.upper());
     /// ```
     pub fn around_ratio(value: &RBig) -> Self {
+        Self::around_relaxed(value.as_relaxed())
+    }
+
+    /// [`around_ratio`](Self::around_ratio) for a fraction that need not be reduced.
+    fn around_relaxed(value: &Relaxed) -> Self {
         let nearest = value.to_f64().value();
-        let side = match RBig::try_from(nearest) {
+        let side = match Relaxed::try_from(nearest) {
             Ok(exact) => exact.cmp(value),
             // It overflowed.
             Err(_) if nearest > 0.0 => Ordering::Greater,

@@ -9,11 +9,13 @@
 //! The solutions of the mode problem are the faces of this polyhedron in which no two of the unknowns of
 //! different states of a contact are positive (theory, section 4 (b)).
 
-use dashu_int::ops::{Gcd, UnsignedAbs};
+use dashu_int::ops::{BitTest, Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 
 use super::cell::contradiction;
+use super::cramer;
 use super::elimination::integers_of_row;
+use super::residues::Field;
 use crate::problem::{ContactState, ProblemView, Side};
 
 /// The columns and the right-hand side of the lifted equations of an exact problem; every row is multiplied
@@ -64,22 +66,15 @@ impl LiftedSystem {
 
     /// Sums of the equations, with these factors each; not multiplied further.
     pub(crate) fn summed(&self, sums: &[Vec<IBig>]) -> Self {
-        let summed = |column: &Vec<IBig>| -> Vec<IBig> {
-            let product = |sum: &Vec<IBig>| {
-                let terms =
-                    sum.iter().zip(column).filter(|(factor, entry)| !factor.is_zero() && !entry.is_zero());
-                terms.map(|(factor, entry)| factor * entry).sum()
-            };
-            sums.iter().map(product).collect()
-        };
-        Self {
-            contacts: self.contacts,
-            rows: sums.len(),
-            columns: self.columns.iter().map(summed).collect(),
-            right: summed(&self.right),
-            exponents: vec![0; sums.len()],
-            share: self.share.clone(),
-        }
+        let summed =
+            |column: &Vec<IBig>| -> Vec<IBig> { sums.iter().map(|sum| product(sum, column)).collect() };
+        self.with_equations(self.columns.iter().map(summed).collect(), summed(&self.right))
+    }
+
+    /// Other equations for the same unknowns; not multiplied further.
+    pub(super) fn with_equations(&self, columns: Vec<Vec<IBig>>, right: Vec<IBig>) -> Self {
+        let exponents = vec![0; right.len()];
+        Self { rows: right.len(), columns, right, exponents, share: self.share.clone(), ..*self }
     }
 
     /// The number of contacts.
@@ -138,10 +133,9 @@ impl LiftedSystem {
         let zero: Vec<usize> = zero.into_iter().map(|at| columns[at]).collect();
         // All vectors of the basis with another product with `b` than zero prove the same: they differ by sums of
         // equations in which nothing is left.
-        let product = |vector: &[IBig]| -> IBig { vector.iter().zip(&self.right).map(|(a, b)| a * b).sum() };
         let basis = self.left_null_space(&zero, proceed)?;
-        let mut vector = basis.into_iter().find(|vector| !product(vector).is_zero())?;
-        if product(&vector) < IBig::ZERO {
+        let mut vector = basis.into_iter().find(|vector| !product(vector, &self.right).is_zero())?;
+        if product(&vector, &self.right) < IBig::ZERO {
             vector.iter_mut().for_each(|entry| *entry = -std::mem::take(entry));
         }
         Some(vector)
@@ -149,58 +143,73 @@ impl LiftedSystem {
 
     /// A basis of all `v` with `v . C_j = 0` for some columns, in integers without common factor; `None` once
     /// `proceed` is `false`.
+    ///
+    /// Each equation that depends on others in these columns gives a vector: it, minus those others. Which do is found modulo
+    /// a prime. It is so in integers, too, if all products vanish; otherwise the prime divides some determinant.
     pub(crate) fn left_null_space(
         &self,
         columns: &[usize],
         proceed: &mut dyn FnMut() -> bool,
     ) -> Option<Vec<Vec<IBig>>> {
-        let row = |row: usize| {
-            let unit = (0..self.rows).map(|at| IBig::from(u8::from(at == row)));
-            columns.iter().map(|&column| self.columns[column][row].clone()).chain(unit).collect()
-        };
-        let mut rows: Vec<Vec<IBig>> = (0..self.rows).map(row).collect();
-        let mut rank = 0;
-        for column in 0..columns.len() {
-            let pivot = (rank..self.rows).filter(|&row| !rows[row][column].is_zero());
-            let Some(pivot) = pivot.min_by_key(|&row| size_of(&rows[row])) else { continue };
-            rows.swap(pivot, rank);
-            let (above, below) = rows.split_at_mut(rank + 1);
-            for row in below.iter_mut().filter(|row| !row[column].is_zero()) {
-                if !proceed() {
-                    return None;
-                }
-                eliminate(row, &above[rank], column);
+        let entries = |row: usize| columns.iter().map(move |&column| &self.columns[column][row]);
+        let mut rows: Vec<usize> = (0..self.rows).collect();
+        // Sums of short equations are short.
+        rows.sort_by_key(|&row| entries(row).map(BitTest::bit_len).sum::<usize>());
+        for field in Field::all() {
+            if !proceed() {
+                return None;
             }
-            rank += 1;
+            let mut residues: Vec<Vec<u64>> = columns
+                .iter()
+                .map(|&column| rows.iter().map(|&row| field.residue(&self.columns[column][row])).collect())
+                .collect();
+            let reduced = field.reduce(&mut residues, self.rows);
+            let rank = reduced.pivots.len();
+            let used: Vec<usize> = reduced.pivots.iter().map(|&at| rows[at]).collect();
+            let others: Vec<usize> = rows.iter().copied().filter(|row| !used.contains(row)).collect();
+            let (own, dependent) = reduced.order.split_at(rank);
+            let equations: Vec<Vec<IBig>> = own
+                .iter()
+                .map(|&at| &self.columns[columns[at]])
+                .map(|column| used.iter().chain(&others).map(|&row| column[row].clone()).collect())
+                .collect();
+            let Some(solved) = cramer::solve(&equations, rank, proceed) else { continue };
+            let vector = |(at, &row): (usize, &usize)| {
+                let mut vector = vec![IBig::ZERO; self.rows];
+                // Without equations, there are no right-hand sides either.
+                let numerators = solved.numerators.get(at).into_iter().flatten();
+                used.iter().zip(numerators).for_each(|(&row, entry)| vector[row] = -entry);
+                vector[row].clone_from(&solved.determinant);
+                make_primitive(&mut vector);
+                vector
+            };
+            let basis: Vec<Vec<IBig>> = others.iter().enumerate().map(vector).collect();
+            let dependent: Vec<&Vec<IBig>> = dependent.iter().map(|&at| &self.columns[columns[at]]).collect();
+            if basis.iter().all(|vector| dependent.iter().all(|column| product(vector, column).is_zero())) {
+                return Some(basis);
+            }
         }
-        Some(rows.into_iter().skip(rank).map(|mut row| row.split_off(columns.len())).collect())
+        None
     }
+}
+
+fn product(one: &[IBig], other: &[IBig]) -> IBig {
+    one.iter().zip(other).filter(|(a, b)| !a.is_zero() && !b.is_zero()).map(|(a, b)| a * b).sum()
 }
 
 /// The numbers of a row whose sums are its entries, with the right-hand side last.
 fn lifted_row(problem: ProblemView<'_>, jumping: &[usize], row: usize) -> Vec<Vec<f64>> {
-    let side = |side: Side| {
-        (0..problem.contacts())
-            .map(move |contact| problem.column(contact, side).terms().map(|term| term.centre[row]).collect())
+    // No term is no number, too.
+    let terms = |contact: usize, side: Side| -> Vec<f64> {
+        let terms = problem.column(contact, side).terms().map(|term| term.centre[row]);
+        terms.filter(|term| *term != 0.0).collect()
     };
+    let side = |side: Side| (0..problem.contacts()).map(move |contact| terms(contact, side));
     let jump = |contact: usize, side: Side| problem.jump(contact, side).centre[row];
     let shares = jumping.iter().flat_map(|&contact| Side::BOTH.map(|side| vec![-jump(contact, side)]));
     let constant = (0..problem.contacts()).filter(|contact| !jumping.contains(contact));
     let right = std::iter::once(problem.load().centre[row]).chain(constant.map(|k| jump(k, Side::Negative)));
     side(Side::Positive).chain(side(Side::Negative)).chain(shares).chain([right.collect()]).collect()
-}
-
-/// Removes the entry of a column by a multiple of the pivot row, and divides by the common factor.
-fn eliminate(row: &mut [IBig], pivot_row: &[IBig], column: usize) {
-    let common = (&row[column]).gcd(&pivot_row[column]);
-    let (factor, pivot) =
-        (&row[column] / IBig::from(common.clone()), &pivot_row[column] / IBig::from(common));
-    for (entry, eliminated) in row.iter_mut().zip(pivot_row) {
-        if !entry.is_zero() || !eliminated.is_zero() {
-            *entry = &*entry * &pivot - &factor * eliminated;
-        }
-    }
-    make_primitive(row);
 }
 
 /// Divides by the greatest common divisor.
@@ -216,9 +225,4 @@ pub(crate) fn make_primitive(row: &mut [IBig]) {
         let common = IBig::from(common);
         row.iter_mut().filter(|entry| !entry.is_zero()).for_each(|entry| *entry = &*entry / &common);
     }
-}
-
-fn size_of(row: &[IBig]) -> usize {
-    use dashu_int::ops::BitTest;
-    row.iter().map(BitTest::bit_len).sum()
 }

@@ -20,6 +20,8 @@
 
 mod admissible;
 mod cell;
+mod condensed;
+mod cramer;
 mod decision;
 mod elimination;
 mod enclosure;
@@ -32,18 +34,20 @@ mod norm;
 mod polyhedron;
 mod preconditioned;
 mod propagation;
+mod residues;
 mod system;
 
 pub use crate::interval::{Interval, Sign};
 pub use crate::interval_matrix::IntervalMatrix;
 pub use crate::problem::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use cell::{Cell, CellPart};
+pub(super) use condensed::Condensed;
 pub(super) use decision::decide_while;
 pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
 pub(super) use elimination::mantissa_and_exponent;
 pub use enclosure::{LinearEnclosure, enclose_solution, enclose_solution_while, proven_determinant_sign};
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
-pub(super) use exact::{determinant_sign, enclose_sums, solve_matrix_exactly};
+pub(super) use exact::{ExactSolution, determinant_sign, enclose_sums, solve_matrix_exactly};
 pub use exchange::{has_one_solution, is_exchange};
 pub use exclusion::proves_empty;
 pub(super) use exclusion::proves_empty_while;

@@ -243,7 +243,7 @@ impl<'a> Teller<'a> {
         let is_exact = singular || !values.sums.is_empty();
         let mut radius = |values: &mut Values| {
             let exact = is_exact.then(|| self.exact_radius(&mut exact_unknowns, values)).flatten();
-            let within = exact.or_else(|| (!singular).then(|| self.radius(&pattern, values)).flatten());
+            let within = exact.or_else(|| (!singular).then(|| self.radius(state, values)).flatten());
             let is_doubtful =
                 size <= EXACT_UNKNOWNS && within.is_none_or(|radius| self.is_wide(values, radius));
             if singular || !is_doubtful {
@@ -274,12 +274,17 @@ impl<'a> Teller<'a> {
 
     /// Returns the maximum distance of a pattern's values from those of its exact solution; `None` if
     /// unknown. Sums, values without a floating-point number, and those that are not reported, are ignored.
-    fn radius(&self, pattern: &[ContactState], values: &Values) -> Option<f64> {
-        let (Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. }) =
-            decide(self.problem, pattern).decision
-        else {
-            return None;
+    fn radius(&self, state: &CombinedState<'_>, values: &Values) -> Option<f64> {
+        let of_all = match state.parts.as_slice() {
+            [(_, part)] => part.unknowns().map(<[Interval]>::to_vec),
+            // Bounds of a group cover what is not known of the groups before.
+            _ => None,
         };
+        let decided = || match decide(self.problem, &state.pattern(values.signed.len())).decision {
+            Decision::Solution { unknowns, .. } | Decision::Boundary { unknowns, .. } => Some(unknowns),
+            _ => None,
+        };
+        let unknowns = of_all.or_else(decided)?;
         let distance = |at: usize| {
             let (bounds, value) = (unknowns[at], values.signed[at].abs());
             let largest = (bounds.upper() - value).max(value - bounds.lower());

@@ -18,8 +18,7 @@ use super::separation::Separated;
 use super::signs::RowSigns;
 use super::states::StateSet;
 use super::without_free::WithoutFree;
-use crate::certificate::{Decision, LiftedSystem};
-use crate::dense::Lu;
+use crate::certificate::{Decision, LiftedSystem, Sign};
 use crate::problem::{ContactState, ProblemView, ScaledProblem};
 use crate::solutions::ContactSet;
 
@@ -79,7 +78,7 @@ impl Faces {
 
     /// The same, with nodes settled by as few columns as possible, for the cells of a proof.
     pub(super) fn with_supports(self) -> Self {
-        Self { to_support: true, ..self }
+        Self { to_support: true, without_free: Arc::new(self.without_free.for_all()), ..self }
     }
 
     /// The signs of the equations.
@@ -183,10 +182,32 @@ impl Faces {
         let decision = if free.is_empty() {
             None
         } else {
-            Some(with_sides_of_free(&mut pattern, &free, problem, (leaves, monitor))?)
+            Some(self.with_sides_of_free(&mut pattern, &free, (leaves, monitor))?)
         };
         self.known.push((left.clone(), pattern.clone()));
         Some(Settled { pattern, is_known: false, vector, left, decision })
+    }
+
+    /// Gives the free contacts of a pattern the sides of its only solution, if its matrix is regular, which does not depend on
+    /// these sides; returns what the pattern then admits. `None` if there is no such solution, or no time.
+    fn with_sides_of_free(
+        &self,
+        pattern: &mut [ContactState],
+        free: &[usize],
+        (leaves, monitor): (&Leaves<'_>, &mut Monitor<'_>),
+    ) -> Option<Decision> {
+        let solution = self.without_free.solve(pattern, &mut || monitor.goes_on());
+        let mut solution = solution.or_else(|| leaves.solve_exactly(pattern, monitor))?;
+        for &contact in free {
+            if solution.sign(contact) == Sign::Negative {
+                turn(&mut pattern[contact]);
+                solution.turn(contact);
+            }
+        }
+        match solution.decide(pattern) {
+            decision @ (Decision::Solution { .. } | Decision::Boundary { .. }) => Some(decision),
+            _ => None,
+        }
     }
 
     /// A vector which proves that, in all solutions with the allowed columns, the unknowns of all others than
@@ -229,28 +250,6 @@ impl Faces {
         }
         support
     }
-}
-
-/// Gives the free contacts of a pattern the sides of its only solution, if its matrix is regular, which does not depend on
-/// these sides; returns what the pattern then admits. `None` if there is no such solution, or if it is not found.
-fn with_sides_of_free(
-    pattern: &mut [ContactState],
-    free: &[usize],
-    problem: &ScaledProblem,
-    (leaves, monitor): (&mut Leaves<'_>, &mut Monitor<'_>),
-) -> Option<Decision> {
-    let (matrix, right_hand_side) = problem.system(pattern);
-    let y = Lu::new(matrix, &mut || monitor.goes_on())?.solve(&right_hand_side)?;
-    free.iter().filter(|&&contact| y[contact] < 0.0).for_each(|&contact| turn(&mut pattern[contact]));
-    // Rounding may have given an unknown near zero the wrong sign.
-    for _ in 0..=free.len() {
-        match leaves.decide(pattern, monitor).ok()? {
-            Decision::NoSolution { contact } if free.contains(&contact) => turn(&mut pattern[contact]),
-            decision @ (Decision::Solution { .. } | Decision::Boundary { .. }) => return Some(decision),
-            _ => return None,
-        }
-    }
-    None
 }
 
 /// To the other side.

@@ -6,7 +6,7 @@ use super::product::{CombinedState, GroupState};
 use super::relaxation::Relaxation;
 use super::report::StopReason;
 use super::states::StateSet;
-use crate::certificate::{Decision, decide_while, proves_empty_while};
+use crate::certificate::{Decision, ExactSolution, decide_while, proves_empty_while};
 use crate::findings::{Filed, Findings, Found};
 use crate::problem::{ContactState, SolutionSet};
 use crate::solutions::Certificate;
@@ -162,6 +162,15 @@ impl<'a> Leaves<'a> {
             Some(reason) => Err(reason),
             None => decision.ok_or(StopReason::Cancelled),
         }
+    }
+
+    /// The solution of a pattern's equations, for the numbers as given; `None` if they are singular, or if the monitor stops.
+    pub(super) fn solve_exactly(
+        &self,
+        pattern: &[ContactState],
+        monitor: &mut Monitor<'_>,
+    ) -> Option<ExactSolution> {
+        ExactSolution::of_pattern(self.problem.view().centre, pattern, &mut || monitor.goes_on())
     }
 
     /// Records a pattern according to its decision.

@@ -79,27 +79,12 @@ impl ReducedRelaxation {
 mod tests {
     use std::sync::Arc;
 
-    use nalgebra::DMatrix;
-
     use super::super::relaxation::Relaxed;
     use super::super::states::all_states;
     use super::super::test_problems::{Numbers, admitted, holds};
     use super::super::without_free::WithoutFree;
     use super::*;
     use crate::certificate::LiftedSystem;
-    use crate::problem::{ModeProblem, Side};
-
-    /// A random problem in which some of the contacts are free.
-    fn with_free(numbers: &mut Numbers, is_free: &[bool]) -> ModeProblem {
-        let problem = numbers.problem(is_free.len(), 1.5, false);
-        let [positive, mut negative] = Side::BOTH.map(|side| problem.columns(side).clone());
-        for contact in (0..is_free.len()).filter(|&contact| is_free[contact]) {
-            negative.set_column(contact, &-positive.column(contact));
-        }
-        let none = DMatrix::zeros(is_free.len(), is_free.len());
-        ModeProblem::new(positive, negative, none.clone(), none, problem.right_hand_side().clone())
-            .expect("shapes fit")
-    }
 
     /// Every node of the others with all free contacts open: what is excluded admits nothing, and a node is excluded or has
     /// a relaxed solution.
@@ -109,7 +94,7 @@ mod tests {
         for seed in 0..100_usize {
             let mut numbers = Numbers::new(seed as u64);
             let is_free: Vec<bool> = (0..5).map(|contact| contact == seed % 5 || contact == 3).collect();
-            let problem = with_free(&mut numbers, &is_free);
+            let problem = numbers.problem_with_free(&is_free);
             let admitted = admitted(&problem);
             let system = Arc::new(LiftedSystem::new((&problem).into()));
             let others =

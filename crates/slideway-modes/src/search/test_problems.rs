@@ -44,6 +44,18 @@ impl Numbers {
         ModeProblem::new(positive, negative, up, down, load).expect("shapes fit")
     }
 
+    /// A problem in which these contacts are free.
+    pub(super) fn problem_with_free(&mut self, is_free: &[bool]) -> ModeProblem {
+        let problem = self.problem(is_free.len(), 1.5, false);
+        let [positive, mut negative] = Side::BOTH.map(|side| problem.columns(side).clone());
+        for contact in (0..is_free.len()).filter(|&contact| is_free[contact]) {
+            negative.set_column(contact, &-positive.column(contact));
+        }
+        let none = DMatrix::zeros(is_free.len(), is_free.len());
+        ModeProblem::new(positive, negative, none.clone(), none, problem.right_hand_side().clone())
+            .expect("shapes fit")
+    }
+
     /// The problem with a load changed within a radius.
     pub(super) fn with_load_off_by(&mut self, problem: &ModeProblem, radius: f64) -> ModeProblem {
         let load = problem.right_hand_side().map(|value| value + radius * self.number().signum());

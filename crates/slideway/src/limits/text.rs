@@ -386,17 +386,44 @@ fn known(count: &CountLimits, unit: &Unit) -> String {
 /// A number with two digits, not less than it, in a unit.
 pub(super) fn at_most(value: f64, shown_in: &Unit) -> String {
     let value = shown_in.number_of(value);
-    let exponent = value.log10().floor();
-    let unit = 10_f64.powf(exponent - 1.0);
-    let rounded = (value / unit).ceil() * unit;
-    let text = if (-4.0..6.0).contains(&exponent) { number(rounded) } else { format!("{rounded:.1e}") };
+    let rounded = rounded_up(value).unwrap_or(value);
+    let text =
+        if value == 0.0 || (1e-4..1e6).contains(&value) { number(rounded) } else { format!("{rounded:.1e}") };
     shown_in.with(&text)
+}
+
+/// The least number with two significant digits that is not below a positive one; `None` if there is no such number.
+fn rounded_up(value: f64) -> Option<f64> {
+    let nearest = format!("{value:.1e}");
+    let (mantissa, exponent) = nearest.split_once('e')?;
+    let (tenths, exponent): (u32, i32) = (mantissa.replace('.', "").parse().ok()?, exponent.parse().ok()?);
+    let with = |tenths: u32| format!("{tenths}e{}", exponent - 1).parse::<f64>().ok();
+    [tenths, tenths + 1].into_iter().filter_map(with).find(|rounded| *rounded >= value && rounded.is_finite())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::no_answers;
+    use super::{at_most, no_answers};
     use crate::units::Unit;
+
+    /// By hand: two digits, never less, also of numbers that a power of ten of their size would underflow beside.
+    #[test]
+    fn widths_are_rounded_up_to_two_digits() {
+        for (value, told) in [
+            (0.061, "0.061"),
+            (0.0611, "0.062"),
+            (9.91, "10"),
+            (5e-324, "4.9e-324"),
+            (4.9e-322, "4.9e-322"),
+            (6.61e-5, "6.7e-5"),
+            (9.99e-5, "1.0e-4"),
+            (1.61e7, "1.7e7"),
+            (f64::MAX, "1.8e308"),
+            (0.0, "0"),
+        ] {
+            assert_eq!(at_most(value, &Unit::default()), told);
+        }
+    }
 
     #[test]
     fn ranges_without_answer_that_meet_are_one_with_the_reason_of_the_widest() {

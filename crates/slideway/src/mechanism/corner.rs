@@ -24,9 +24,9 @@ pub(crate) struct BareCorner {
 }
 
 impl BareCorner {
-    /// Returns whether it lies on the face in the drawing of a mechanism of this size.
-    pub(crate) fn is_on_face(&self, size: f64) -> bool {
-        self.contact.gap.abs() <= SAME_PLACE * size
+    /// Returns whether it lies on the face in the drawing of its mechanism.
+    pub(crate) fn is_on_face(&self, mechanism: &Mechanism) -> bool {
+        self.contact.gap.abs() <= mechanism.same_place()
     }
 
     /// The type of a joint that gives it a contact.
@@ -40,6 +40,11 @@ impl BareCorner {
 }
 
 impl Mechanism {
+    /// The distance within which two places of the drawing are one (m): also that of a corner from the face on which it is drawn.
+    pub(crate) fn same_place(&self) -> f64 {
+        SAME_PLACE * self.size
+    }
+
     /// Returns the corners of a body that is drawn with corners (m, in the drawing): of its outline, or of its rectangle.
     pub fn corners(&self, id: BodyId) -> Option<Vec<Vector2<f64>>> {
         let body = &self.bodies[id.index()];
@@ -88,7 +93,7 @@ impl Mechanism {
             // A part of a face that another joint has, too, is watched there.
             let covers = |(_, other): &(JointId, &Slider)| {
                 let ([from, to], [least, greatest]) = (ends_of(face), ends_of(other));
-                let near = SAME_PLACE * self.size;
+                let near = self.same_place();
                 self.is_one_face(face, other) && least <= from + near && to - near <= greatest
             };
             if faces[..index].iter().any(covers) {
@@ -99,7 +104,7 @@ impl Mechanism {
             let contacts: Vec<(Vector2<f64>, f64)> = of_face
                 .flat_map(|(_, slider)| self.all_of(slider).map(|one| (one.position(slider), slider.rim())))
                 .collect();
-            let near = SAME_PLACE * self.size;
+            let near = self.same_place();
             let has_contact = |(place, radius): &(Vector2<f64>, f64)| {
                 contacts.iter().any(|(centre, rim)| length(place - centre) + radius <= rim + near)
             };
@@ -112,8 +117,7 @@ impl Mechanism {
                     [least.min(place), greatest.max(place)]
                 });
             let is_between = |corner: &BareCorner| {
-                corner.is_on_face(self.size)
-                    && (least..=greatest).contains(&corner.slider.at.dot(&face.tangent))
+                corner.is_on_face(self) && (least..=greatest).contains(&corner.slider.at.dot(&face.tangent))
             };
             found.extend(bare.filter(|corner| !is_between(corner)));
         }
@@ -131,7 +135,7 @@ impl Mechanism {
             (None, Some(Shape::Disc(radius))) => vec![(body.centre_of_mass, radius)],
             (None, _) => {
                 let places: Vec<Vector2<f64>> = body.points.iter().map(|(_, place)| *place).collect();
-                let is_corner = |place: &&Vector2<f64>| is_corner(**place, &places, SAME_PLACE * self.size);
+                let is_corner = |place: &&Vector2<f64>| is_corner(**place, &places, self.same_place());
                 places.iter().filter(is_corner).map(|place| sharp(*place)).collect()
             }
         }
@@ -144,7 +148,7 @@ impl Mechanism {
 
     /// Returns whether two joints of one block have one face, each perhaps a part of it.
     fn is_one_face(&self, one: &Slider, other: &Slider) -> bool {
-        let near = SAME_PLACE * self.size;
+        let near = self.same_place();
         let of_same = (one.block, one.guide) == (other.block, other.guide);
         of_same
             && match (&one.round, &other.round) {
@@ -168,7 +172,7 @@ impl Mechanism {
 
     /// The bodies that lie behind a face that they touch, each with the joint of it: all that is drawn of them but what touches.
     pub(crate) fn behind_faces(&self) -> Vec<(JointId, BodyId)> {
-        let near = SAME_PLACE * self.size;
+        let near = self.same_place();
         let behind = |(joint, face): (JointId, &Slider)| {
             let body = face.block.body().filter(|_| self.may_lift_off(face))?;
             let gaps: Vec<f64> =
@@ -198,7 +202,7 @@ impl Mechanism {
         (place, radius): (Vector2<f64>, f64),
     ) -> Option<BareCorner> {
         let gap = self.gap_in_drawing(face, (place, radius));
-        if gap < -SAME_PLACE * self.size {
+        if gap < -self.same_place() {
             return None;
         }
         let contact = self.all_of(face).next()?;
@@ -224,7 +228,7 @@ impl Mechanism {
         if radius > 0.0 {
             return format!("the rim of {}", body.name);
         }
-        let is_here = |(_, point): &&(_, Vector2<f64>)| length(place - point) <= SAME_PLACE * self.size;
+        let is_here = |(_, point): &&(_, Vector2<f64>)| length(place - point) <= self.same_place();
         if let Some((point, _)) = body.points.iter().find(is_here) {
             return format!("{}.{point}", body.name);
         }

@@ -305,7 +305,7 @@ fn nearest_hinge(mechanism: &Mechanism, joint: JointId) -> Option<(Frame, JointI
 
 /// Corners that are drawn on a face on which their body stands, without a contact there.
 fn bare_corners(mechanism: &Mechanism) -> Vec<Fault> {
-    let on_face = mechanism.bare_corners().into_iter().filter(|corner| corner.is_on_face(mechanism.size));
+    let on_face = mechanism.bare_corners().into_iter().filter(|corner| corner.is_on_face(mechanism));
     let one = |corner: BareCorner| {
         let wanted = corner.wanted();
         let joint = &mechanism.joints[corner.joint.index()];

@@ -22,8 +22,6 @@ const VELOCITY_TOLERANCE: f64 = 1e-10;
 const MARGIN_TOLERANCE: f64 = 1e-10;
 /// Lengths below this multiple of the size are rounding.
 const LENGTH_TOLERANCE: f64 = 1e-12;
-/// Corners that are drawn on their face, which contacts hold there, are off by less.
-const DRAWN_TOLERANCE: f64 = 1e-6;
 /// A mode whose determinant has fallen to this part of what it was at the start of the phase counts as
 /// locked.
 const LOCKED: f64 = 1e-9;
@@ -306,7 +304,7 @@ impl<'o> Watch<'o> {
             Watched::Velocity(..) => velocity,
             Watched::Spin(..) => velocity / mechanism.size,
             Watched::Overlap(_) | Watched::Gap(_) | Watched::Travel(..) => LENGTH_TOLERANCE * mechanism.size,
-            Watched::BareCorner(_) => DRAWN_TOLERANCE * mechanism.size,
+            Watched::BareCorner(_) => mechanism.same_place(),
             Watched::Sticking => MARGIN_TOLERANCE,
             Watched::Determinant | Watched::User(..) | Watched::Relation(_) => 0.0,
         }
@@ -338,7 +336,7 @@ fn is_beside_face(corner: &BareCorner, equations: &Equations<'_>) -> bool {
 
 /// Returns whether a corner is on the free side of a face, and not beyond its ends where it passes its line.
 fn may_reach(corner: &BareCorner, equations: &Equations<'_>) -> bool {
-    let (gap, near) = (gap_of(corner, equations), DRAWN_TOLERANCE * equations.mechanism.size);
+    let (gap, near) = (gap_of(corner, equations), equations.mechanism.same_place());
     gap > near || gap >= -near && !is_beside_face(corner, equations)
 }
 

@@ -230,7 +230,7 @@ impl Impact<'_> {
             self.mechanism.one_sided().map(ContactId::index).filter(|k| !touch(k)).collect();
         let options = touches.iter().map(|touch| touch.contact).filter(|k| !self.resting.contains(k));
         let sets = subsets(&options.collect::<Vec<_>>())?;
-        for towards in [Towards::TheEnd, Towards::Wedged] {
+        for &towards in self.ways() {
             let mut found: Vec<Part> = Vec::new();
             for left in &sets {
                 let touching = Touching::new(self.mechanism, &apart, left);
@@ -250,6 +250,14 @@ impl Impact<'_> {
             }
         }
         Err(self.wedges(touches))
+    }
+
+    /// Where rates may go, in the order in which that is tried: by Moreau's law an impact ends as soon as it has begun.
+    fn ways(&self) -> &'static [Towards] {
+        match self.law {
+            ImpactLaw::Course => &[Towards::TheEnd, Towards::Wedged],
+            ImpactLaw::Moreau => &[Towards::TheEnd],
+        }
     }
 
     /// Names what a part of an impact does, such as "left lifts off, right slides (1.2 J lost)".
@@ -324,10 +332,10 @@ impl Impact<'_> {
                 let part = -velocity / instant.change(number, jumps);
                 (slides && *velocity != 0.0 && part > 0.0).then_some(part)
             };
-            let most = if towards == Towards::TheEnd { 1.0 } else { f64::INFINITY };
             if self.law == ImpactLaw::Moreau {
-                return most;
+                return 1.0;
             }
+            let most = if towards == Towards::TheEnd { 1.0 } else { f64::INFINITY };
             velocities.iter().enumerate().filter_map(until).fold(most, f64::min)
         };
         let push = |contact: ContactId, state: &Assessment, jumps: &DVector<f64>| {
