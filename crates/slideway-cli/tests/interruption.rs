@@ -88,7 +88,7 @@ fn a_time_limit_ends_questions_on_hundreds_of_bodies() {
         let run = slideway(&[words, &["--time-limit", "100ms"]].concat());
         let took = begun.elapsed();
         let told = "error: ended by the time limit of 100 ms before there was an answer; nothing is written";
-        assert!(run.code == 3 && run.stderr.starts_with(told), "{words:?}: {} {}", run.code, run.stderr);
+        assert!(run.code == 3 && run.stderr.contains(told), "{words:?}: {} {}", run.code, run.stderr);
         assert!(took < Duration::from_secs(5), "{words:?} took {took:?}");
     }
 }

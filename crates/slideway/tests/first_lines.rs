@@ -373,7 +373,7 @@ fn of_simulate(outcome: Outcome) -> First {
         One => Line(simulated("drawer", &[], 0.5), "It is still moving at 0.5 s."),
         Nothing => Line(
             simulated("painleve-klein", &[("mu", "4")], 0.1),
-            "Nothing moves at 0.1 s. It jams once on the way.",
+            "It jams at 0 s and stays at rest until 0.1 s.",
         ),
         Several => {
             let model = model("klepp-2002-spring", &[("mu_1", "0.6")]);

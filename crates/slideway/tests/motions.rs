@@ -594,8 +594,8 @@ fn at_rest_guides_without_friction_slide_nowhere() {
     let model = Model::parse(include_str!("findings/pinched_capsule.toml")).unwrap();
     let history = simulate(&model, &SimulateOptions::new(1.0)).unwrap();
     assert_eq!(history.end, End::Finished);
-    let words = "0 left is flat on the lower guide; right is flat on the lower guide; pl sticks; pr sticks";
-    assert_eq!(self::words(&history), [words]);
+    // Of guides without friction nothing is told.
+    assert_eq!(words(&history), ["0 pl sticks; pr sticks"]);
 }
 
 /// A block of 1 kg that a cart pulls through a spring of 100 N/m, at 50 mm/s (a model of an independent review). While it

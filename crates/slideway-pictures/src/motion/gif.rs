@@ -276,7 +276,7 @@ mod tests {
         let bytes = gif_of(&animation);
         let mut decoder = opened(&bytes);
         assert_eq!(decoder.repeat(), Repeat::Infinite);
-        let [width, height] = still_size(&animation).map(|side| format!("{side}"));
+        let [width, height] = still_size(&animation).map(|side| format!("{}", (PIXELS * side).ceil()));
         assert_eq!([decoder.width().to_string(), decoder.height().to_string()], [width, height]);
         let mut delays = Vec::new();
         while let Some(frame) = decoder.read_next_frame().expect("a frame") {
@@ -296,7 +296,7 @@ mod tests {
         let pictures = shown(&gif_of(&animation));
         let mut pairs: HashMap<(Colour, Colour), usize> = HashMap::new();
         for (frame, picture) in animation.frames.iter().zip(&pictures) {
-            let drawn = drawn(&animation, frame, 1.0).expect("pixels");
+            let drawn = drawn(&animation, frame, PIXELS).expect("pixels");
             assert!(drawn.pixels().iter().all(|pixel| pixel.alpha() == 255));
             colours(&drawn)
                 .zip(picture)
@@ -372,11 +372,11 @@ mod tests {
         let bytes = gif_of(&animation);
         let decoder = opened(&bytes);
         // 1613 x ceil(500.7 + 38 + 90) units: title; a line for the mode, one for the event, the key
-        assert_eq!([decoder.width(), decoder.height()], [1000, 390]);
+        assert_eq!([decoder.width(), decoder.height()], [1200, 468]);
         let picture = &shown(&bytes)[0];
         let background = parsed(DARK.background).expect("a colour");
-        let last_row = &picture[picture.len() - 1000..];
-        let last_column = picture.chunks(1000).map(|row| &row[999]);
+        let last_row = &picture[picture.len() - 1200..];
+        let last_column = picture.chunks(1200).map(|row| &row[1199]);
         assert!(last_row.iter().chain(last_column).all(|colour| *colour == background));
     }
 

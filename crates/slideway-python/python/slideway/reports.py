@@ -1051,6 +1051,8 @@ class Continuum(Record):
 
     pattern: str
     """Its pattern."""
+    rests: bool = False
+    """Whether it stays at rest in all of it, as in `Solution::rests`."""
     vertices: tuple[NDArray[np.float64], ...]
     """Normal forces of the contacts at each vertex (N); none if there are more than 4096 vertices and
     directions."""
@@ -2856,6 +2858,9 @@ class Solution(_mixins.Solution, Record):
     patterns: tuple[str, ...]
     """The patterns that were examined and give this same solution: on a boundary more than one, all of them if
     every pattern was tried (`patterns` of the report)."""
+    rests: bool = False
+    """Whether it stays at rest, as `hold` says of it: every contact sticks, and no coordinate moves or begins to
+    move."""
     signs: tuple[int, ...]
     """Sign of each normal force, 0 where it vanishes."""
     on_boundary: bool
@@ -3266,7 +3271,8 @@ class WarningReport(Record):
 
     kind: str
     """Its kind: "bare_angle", "bare_number", "lengths_far_apart", "length_towers", "gap_closed",
-    "far_from_drawing", "great_friction", "wide_friction_circle", "bare_corner" or "nothing_presses"."""
+    "far_from_drawing", "great_friction", "great_gravity", "wide_friction_circle", "bare_corner",
+    "behind_face", "no_loads" or "nothing_presses"."""
     place: WarningPlace | None
     """Where it lies; null where it concerns the input as a whole."""
     message: str

@@ -32,7 +32,7 @@ pub enum Doubt {
     #[error("{body} lies behind the face of {joint}")]
     BehindFace { body: String, joint: String },
     #[error(
-        "the model has neither gravity nor a load nor a drive: nothing presses, so that everything holds"
+        "the model has neither gravity nor a load nor a drive: nothing but its own motion presses its contacts"
     )]
     NoLoads,
     #[error("nothing presses any guide: all contact forces are zero, and friction has nothing to act on")]

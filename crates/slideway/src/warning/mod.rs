@@ -106,6 +106,7 @@ pub fn warnings(model: &Model) -> Faults {
         found.extend(great_friction(model));
         found.extend(wide_friction_circles(model, &mechanism));
         found.extend(great_gravity(model, &mechanism));
+
         found.extend(no_loads(&mechanism));
         found.extend(behind_faces(&mechanism));
         found.extend(gap_closed(model, &mechanism));
@@ -150,14 +151,15 @@ fn great_gravity(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
     ))
 }
 
-/// Friction of what nothing can press.
+/// Friction of what nothing presses but its own motion.
 fn no_loads(mechanism: &Mechanism) -> Option<Fault> {
-    let has_loads =
-        mechanism.gravity != Vector2::zeros() || !mechanism.loads.is_empty() || !mechanism.drives.is_empty();
+    let loads = mechanism.loads.len() + mechanism.drives.len();
     let presses = |contact: &Contact| contact.preload != [0.0; 2] || is_displaced(contact);
-    let none =
-        has_loads || !mechanism.contacts.iter().any(is_rough) || mechanism.contacts.iter().any(presses);
-    (!none).then(|| Fault::general(FaultKind::Doubt(Doubt::NoLoads)))
+    let is_idle = loads == 0
+        && mechanism.gravity == Vector2::zeros()
+        && mechanism.contacts.iter().any(is_rough)
+        && !mechanism.contacts.iter().any(presses);
+    is_idle.then(|| Fault::general(FaultKind::Doubt(Doubt::NoLoads)))
 }
 
 /// Bodies behind a face that they touch.

@@ -231,7 +231,7 @@ impl<'a> Resting<'a> {
     }
 
     /// Solutions with their least slacks, without those that miss an inequality by rounding where another one, which has the
-    /// same forces to ten times that, does not: about the end of one state both hold within the tolerance.
+    /// same forces to ten times that, misses less: about the end of one state both hold within the tolerance.
     fn without_bounds(&self, solutions: &[(Solution, f64)]) -> Vec<Solution> {
         let forces = |solution: &Solution| -> Vec<f64> {
             solution
@@ -245,11 +245,13 @@ impl<'a> Resting<'a> {
             let scale = one.iter().chain(&other).map(|force| force.abs()).fold(self.force, f64::max);
             one.iter().zip(&other).all(|(one, other)| (one - other).abs() <= 10.0 * TOLERANCE * scale)
         };
-        let is_kept = |(solution, least): &&(Solution, f64)| {
-            let beside = |(other, slack): &(Solution, f64)| *slack >= 0.0 && is_same(solution, other);
-            *least >= 0.0 || !solutions.iter().any(beside)
+        let is_kept = |(index, (solution, least)): &(usize, &(Solution, f64))| {
+            let beside = |(number, (other, slack)): (usize, &(Solution, f64))| {
+                (*slack > *least || *slack == *least && number < *index) && is_same(solution, other)
+            };
+            *least >= 0.0 || !solutions.iter().enumerate().any(beside)
         };
-        solutions.iter().filter(is_kept).map(|(solution, _)| solution.clone()).collect()
+        solutions.iter().enumerate().filter(is_kept).map(|(_, (solution, _))| solution.clone()).collect()
     }
 
     fn name(&self, joint: &RestingJoint) -> &str {
@@ -261,11 +263,14 @@ impl<'a> Resting<'a> {
     }
 
     /// The least slack of the inequalities of a pattern that has one point, in the units in which they count; none if one is
-    /// missed.
+    /// missed. What begins does so at any rate, since sticking may be missed by rounding only; within that it misses what tells
+    /// it from rest.
     fn least_slack(&self, unknowns: &DVector<f64>, [beginning, slacks]: &[Vec<Affine>; 2]) -> Option<f64> {
         let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
-        let begins = beginning.iter().all(|slack| slack.constant > rounding);
-        let least = slacks.iter().map(|slack| slack.constant).fold(f64::INFINITY, f64::min);
+        let begins = beginning.iter().all(|slack| slack.constant > 0.0);
+        let told_apart = beginning.iter().map(|slack| slack.constant).filter(|slack| *slack <= rounding);
+        let least = slacks.iter().map(|slack| slack.constant);
+        let least = least.chain(told_apart.map(|slack| slack - rounding)).fold(f64::INFINITY, f64::min);
         (begins && least >= -rounding).then_some(least)
     }
 
