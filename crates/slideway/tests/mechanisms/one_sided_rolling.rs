@@ -170,7 +170,7 @@ fn how_it_starts_does_not_change_with_the_direction_of_the_face() {
     let found = limits(&model, &LimitsOptions::new(Vary::between("slope", from, to))).unwrap();
     let [sticks, slides] = found.counts.as_slice() else { panic!("{:?}", found.counts) };
     assert_close(sticks.to, 0.3_f64.atan(), 1.0, 1e-8);
-    assert_eq!(sticks.starts.as_deref(), Some(&["base: closed, sticks".to_owned()][..]));
+    assert_eq!(sticks.starts.as_deref(), Some(&["it holds".to_owned()][..]));
     assert_eq!(slides.starts.as_deref(), Some(&["base: closed, slides backwards".to_owned()][..]));
     let options =
         MapOptions::new(Vary::between("slope", from, to), Vary::between("mu", 0.3, 0.4)).size(20, 4);

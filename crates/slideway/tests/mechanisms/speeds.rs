@@ -90,7 +90,7 @@ fn a_peg_that_slows_down_stops_and_stays() {
     let text = report.text(Style::PLAIN.verbose(true).width(200));
     for sentence in [
         "It slows down at 2200 m/s^2.",
-        "With this acceleration x would stop after 4.5455e-7 s and 2.2727e-7 mm.",
+        "With this acceleration z would stop after 4.5455e-7 s and 2.2727e-7 mm.",
         "It slows down because friction exceeds the loads. Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.",
         "At rest in this position, these loads would not move it.",
         "This contact mode remains however much friction grows, but the motion slows down in it.",
@@ -187,7 +187,7 @@ fn of_many_states_of_rest_it_is_told_that_they_are_not_examined() {
     let boom = crate::answers::report("telescopic-boom", &[("F", "0 N")]);
     assert_eq!(boom.from_rest, Some(FromRest::NotExamined));
     let text = boom.text(Style::PLAIN);
-    assert!(text.contains("may move it again or not; ask `slideway hold`."), "{text}");
+    assert!(text.contains("these loads may move it or not; ask `slideway hold`."), "{text}");
 }
 
 /// Moving down at mu = 0.6 > tan(30 deg) its weight pushes it, and friction takes more.
