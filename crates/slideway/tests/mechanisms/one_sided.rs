@@ -2,8 +2,7 @@
 //! states in descriptor form, other questions, and what is refused.
 
 use crate::answers::{assert_close, contact, mode, only, parameters, report_on, report_with, try_report_on};
-use crate::one_sided_systems::{Contact, State, System, random};
-use crate::random_mechanisms::many;
+use crate::one_sided_systems::{Contact, State, System, many, random};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use rstest::rstest;

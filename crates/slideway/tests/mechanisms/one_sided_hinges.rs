@@ -7,8 +7,7 @@
 
 use crate::answers::{report_on, report_with};
 use crate::one_sided::{assert_states, fault};
-use crate::one_sided_systems::{Contact, Hinge, State, System, amax, random};
-use crate::random_mechanisms::many;
+use crate::one_sided_systems::{Contact, Hinge, State, System, amax, many, random};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix4, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -5,8 +5,8 @@
 //! corner sticks (`g'' = 0`, `v_t' = 0`), slips (`g'' = 0`, `T = -mu N s`) or is open (`N = T = 0`).
 
 use crate::answers::{contact, report_on};
-use crate::one_sided_systems::{Contact, System, random};
-use crate::random_mechanisms::{cases, many};
+use crate::one_sided_systems::{Contact, System, many, random};
+use crate::random_mechanisms::cases;
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;

@@ -5,12 +5,20 @@
 //! closed `g_k'' = 0`, of one that is open `N_k = 0`. It is a state if `N_k >= 0` where a contact is closed that may lift
 //! off, if `g_k'' >= 0` where it is open, and if N has the sign of its side at any other contact.
 
+use crate::random_mechanisms::cases;
 use nalgebra::{DMatrix, DVector, Vector2};
+use proptest::prelude::ProptestConfig;
 use serde::Deserialize;
 use std::f64::consts::PI;
 use std::fmt::Write as _;
 
 type Vector = Vector2<f64>;
+
+/// [`cases`], so many in the suite, or as many as the variable `SLIDEWAY_RANDOM` says.
+pub(crate) fn many(suite: u32) -> ProptestConfig {
+    let given = std::env::var("SLIDEWAY_RANDOM").ok().and_then(|text| text.parse().ok());
+    cases(given.unwrap_or(suite))
+}
 
 #[derive(Debug, Clone, Deserialize)]
 pub(crate) struct System {

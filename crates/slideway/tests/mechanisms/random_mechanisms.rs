@@ -18,12 +18,6 @@ pub(crate) fn cases(cases: u32) -> ProptestConfig {
     }
 }
 
-/// [`cases`], so many in the suite, or as many as the variable `SLIDEWAY_RANDOM` says.
-pub(crate) fn many(suite: u32) -> ProptestConfig {
-    let given = std::env::var("SLIDEWAY_RANDOM").ok().and_then(|text| text.parse().ok());
-    cases(given.unwrap_or(suite))
-}
-
 /// Any of the families.
 pub(crate) fn mechanisms() -> impl Strategy<Value = Drawing> {
     prop_oneof![chain(false), chain(true), hinged_sliders(), slider_crank(), scotch_yoke(), sleeve_on_arm(),]

@@ -27,7 +27,7 @@ pub(super) struct Plotting {
 /// The plot of a sweep, to which its rows are added.
 pub(super) enum Plotted {
     /// Curves over one quantity.
-    Line(SweepPlot),
+    Line(Box<SweepPlot>),
     /// Histograms of samples.
     Samples(SamplesPlot),
 }
@@ -78,7 +78,7 @@ impl Plotting {
         let (plot, taker) = if sweep.has_branches() {
             let plot = SweepPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
             let taker = Taker::Line(plot.extractor());
-            (Plotted::Line(plot), taker)
+            (Plotted::Line(Box::new(plot)), taker)
         } else {
             let plot = SamplesPlot::new(sweep, quantity).ok_or(Failure::NothingToPlot)?;
             (Plotted::Samples(plot.clone()), Taker::Samples(plot))
