@@ -11,7 +11,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
 use slideway::report::{Report, Status};
 use slideway::sweep::{Rows, Sweep, SweepOptions};
-use slideway::{DriveOptions, HoldOptions, MapOptions, drive, hold, map};
+use slideway::{DriveOptions, HoldOptions, MapOptions, drive, hold, map, solve};
 use std::ops::ControlFlow;
 
 const GRAVITY: f64 = 9.81;
@@ -253,4 +253,18 @@ fn what_cannot_stick_is_refused() {
     let ladder = ladder.replace("mu = 0.3\n", "mu = 0.3\nsticks = true\n");
     assert!(matches!(fault(&ladder), FaultKind::Redundant { .. }), "{:?}", fault(&ladder));
     assert_eq!(report_on(&wheel("sticks = true", 0.5)).status, Status::One);
+}
+
+/// Between slipping and sticking nothing is left out: next to the friction from which on the sleeve of the woodpecker sticks there
+/// is one state, on either side and however near.
+#[test]
+fn between_slipping_and_sticking_there_is_a_state() {
+    let model = Model::parse(include_str!("../../models/woodpecker.toml")).unwrap();
+    let found = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 1.0))).unwrap();
+    let [slips, _] = found.counts.as_slice() else { panic!("{:?}", found.counts) };
+    for part in [-1e-6, -1e-7, -3e-8, -1e-8, -1e-9, -1e-10, -1e-12, 0.0, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7] {
+        let mu = slips.to * (1.0 + part);
+        let report = solve(&model.with(&Settings::default().parameter("mu", mu)).unwrap()).unwrap();
+        assert_eq!(report.count, "1", "{part}");
+    }
 }
