@@ -63,8 +63,9 @@ for (const [name, options] of [
         await verdict(page, status);
         places.push(await place());
       }
-      assert.deepEqual(places[1], places[0]);
-      assert.deepEqual(places[2], places[0]);
+      // Places are rounded to pixels.
+      for (const other of places.slice(1))
+        assert.ok(other.every((at, one) => Math.abs(at - places[0][one]) <= 1), JSON.stringify(places));
       await close(page);
     }
   });
@@ -149,13 +150,16 @@ test("drawings are seen whole on a phone, moving and jammed", { skip }, async ()
   }
   await choose(page, "slider-crank");
   // It is turned, and another one is narrower.
+  const shown = () => page.evaluate(() => Number(document.documentElement.dataset.shown));
   const areWhole = () =>
     [...document.querySelectorAll("#drawings figure")].every((figure) => figure.scrollWidth - figure.clientWidth <= 1);
   for (const viewport of [
     { width: 844, height: 390 },
     { width: 360, height: 740 },
   ]) {
+    const before = await shown();
     await page.setViewportSize(viewport);
+    await page.waitForFunction((count) => Number(document.documentElement.dataset.shown) > count, before);
     // An answer to the question of before, with margins, may come first.
     await page.waitForFunction(areWhole, null, { timeout: 30_000 }).catch(() => {});
     await fits(`${viewport.width} pixels`);

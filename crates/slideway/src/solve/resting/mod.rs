@@ -194,7 +194,7 @@ impl<'a> Resting<'a> {
             "the states of {}, at rest at the start, are computed in floating point",
             self.names()
         )];
-        let (mut solutions, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
+        let (mut found, mut continua, mut tipped) = (Vec::new(), Vec::new(), Tipped::default());
         let nodes = all.len() as u64;
         let mut every_load_has_one_state = self.may_be_unique().then_some(true);
         for pattern in all {
@@ -204,15 +204,18 @@ impl<'a> Resting<'a> {
             let Some(set) = self.equations(&system) else { continue };
             if set.dimension() == 0 {
                 let unknowns = set.particular() * self.force;
-                if let Some(least) = self.least_slack(&unknowns, &self.slacks(&system, &set)) {
+                if let Some((least, begins)) = self.least_slack(&unknowns, &self.slacks(&system, &set)) {
                     let point = self.point(&system, &self.refined(&system, unknowns));
                     let solution = self.solution(&point, &mut tipped);
-                    solutions.extend(solution.map(|solution| (solution, least)));
+                    found.extend(solution.map(|solution| (solution, least, begins)));
                 }
             } else {
                 continua.extend(self.continuum(&system, &set));
             }
         }
+        // What begins within rounding is an end of states of rest, where there are such.
+        let begins = found.into_iter().filter(|(.., begins)| *begins || continua.is_empty());
+        let solutions: Vec<(Solution, f64)> = begins.map(|(solution, least, _)| (solution, least)).collect();
         let solutions = distinct(self.without_bounds(&solutions), &[]);
         Ok(SolveReport {
             status: status(false, solutions.len(), 0, continua.len()),
@@ -264,14 +267,18 @@ impl<'a> Resting<'a> {
 
     /// The least slack of the inequalities of a pattern that has one point, in the units in which they count; none if one is
     /// missed. What begins does so at any rate, since sticking may be missed by rounding only; within that it misses what tells
-    /// it from rest.
-    fn least_slack(&self, unknowns: &DVector<f64>, [beginning, slacks]: &[Vec<Affine>; 2]) -> Option<f64> {
+    /// it from rest, and the second value is false.
+    fn least_slack(
+        &self,
+        unknowns: &DVector<f64>,
+        [beginning, slacks]: &[Vec<Affine>; 2],
+    ) -> Option<(f64, bool)> {
         let rounding = TOLERANCE * unknowns.amax().max(self.force) / self.force;
-        let begins = beginning.iter().all(|slack| slack.constant > 0.0);
-        let told_apart = beginning.iter().map(|slack| slack.constant).filter(|slack| *slack <= rounding);
-        let least = slacks.iter().map(|slack| slack.constant);
-        let least = least.chain(told_apart.map(|slack| slack - rounding)).fold(f64::INFINITY, f64::min);
-        (begins && least >= -rounding).then_some(least)
+        let begins = beginning.iter().map(|slack| slack.constant).fold(f64::INFINITY, f64::min);
+        let least = slacks.iter().map(|slack| slack.constant).fold(f64::INFINITY, f64::min);
+        let is_told = begins > rounding;
+        let least = if is_told { least } else { least.min(begins - rounding) };
+        (begins > 0.0 && least >= -rounding).then_some((least, is_told))
     }
 
     /// The state of the contacts with these unknowns, with the oriented determinant.
