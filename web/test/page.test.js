@@ -99,11 +99,12 @@ test("the strip shows how contacts at rest start, and does not take a continuum 
     starts: [...document.querySelectorAll(".strip .start title")].map(({ textContent }) => textContent),
     words: document.querySelector(".strip-box .words").textContent,
   }));
-  assert.deepEqual([seen.none, seen.many, seen.starts.length], [0, 1, 1]);
+  assert.deepEqual([seen.none, seen.many, seen.starts.length], [0, 1, 2]);
   await verdict(page, "continuum");
   assert.match(await page.textContent("#verdict"), /^∞ /);
-  assert.match(seen.starts[0], /foot: .*head: /);
-  assert.match(seen.words, /from 0.1 to 0.931\d+ infinitely many; from 0.931\d+ to 1 1 solution, foot: /);
+  assert.equal(seen.starts[0], "it holds");
+  assert.match(seen.starts[1], /foot: .*head: /);
+  assert.match(seen.words, /from 0.1 to 0.931\d+ infinitely many, it holds; from 0.931\d+ to 1 1 solution, foot: /);
   await close(page);
 });
 
