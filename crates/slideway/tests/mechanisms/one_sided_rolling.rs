@@ -268,3 +268,15 @@ fn between_slipping_and_sticking_there_is_a_state() {
         assert_eq!(report.count, "1", "{part}");
     }
 }
+
+/// The ladder holds until its person has climbed 0.931438 of it (reference of contacts that may lift off), in one stretch: the states
+/// that begin to slide within rounding are the ends of those of rest.
+#[test]
+fn a_ladder_holds_in_one_stretch() {
+    let model = Model::parse(include_str!("../../models/ladder.toml")).unwrap();
+    let found = limits(&model, &LimitsOptions::new(Vary::between("climbed", 0.1, 1.0))).unwrap();
+    let [holds, slides] = found.counts.as_slice() else { panic!("{} stretches", found.counts.len()) };
+    assert_eq!(holds.starts.as_deref(), Some(&["it holds".to_owned()][..]));
+    assert_close(holds.to, 0.931_438, 1.0, 1e-6);
+    assert_eq!((holds.solutions, slides.solutions), (0, 1));
+}
