@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
-use crate::motion_lifting::{block, lost, words};
+use crate::motion_lifting::{block, lost, numbers, words};
 use slideway::model::{Model, Settings};
 use slideway::motion::{End, History, ImpactLaw, SimulateOptions, simulate};
 
-fn history(text: &str, duration: f64) -> History {
+pub(crate) fn history(text: &str, duration: f64) -> History {
     let model = Model::parse(text).unwrap().with(&Settings::default()).unwrap();
     let history = simulate(&model, &SimulateOptions::new(duration)).unwrap();
     assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
@@ -18,7 +18,7 @@ fn is_near(found: f64, expected: f64, within: f64) {
 }
 
 /// The times of impacts, each with the energy that it has taken.
-fn impacts(history: &History) -> Vec<[f64; 2]> {
+pub(crate) fn impacts(history: &History) -> Vec<[f64; 2]> {
     let one = |event: &slideway::motion::Event| {
         event.causes.iter().find_map(lost).map(|energy| [event.time, energy])
     };
@@ -241,11 +241,7 @@ fn a_slider_with_play_hits_its_face() {
 /// No impact adds energy with any restitution, and the balance closes: blocks thrown with random tilt and rates.
 #[test]
 fn no_restitution_adds_energy() {
-    let mut random = 7_u64;
-    let mut next = |low: f64, high: f64| {
-        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * f64::from(u32::try_from(random >> 33).unwrap()) / f64::from(1_u32 << 31)
-    };
+    let mut next = numbers(7);
     let mut count = 0;
     for _ in 0..100 {
         let [tilt, u, v, w] = [next(-40.0, 40.0), next(-2.0, 2.0), next(-3.0, 0.0), next(-5.0, 5.0)];
@@ -446,11 +442,7 @@ fn a_box_meets_a_wall_with_its_whole_front() {
 /// Where the course reverses it, they differ.
 #[test]
 fn both_laws_agree_where_no_slip_is_reversed() {
-    let mut random = 11_u64;
-    let mut next = |low: f64, high: f64| {
-        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * f64::from(u32::try_from(random >> 33).unwrap()) / f64::from(1_u32 << 31)
-    };
+    let mut next = numbers(11);
     let (mut agree, mut differ) = (0, 0);
     for _ in 0..100 {
         let [lean, mu, restitution, slip] = [next(0.3, 1.5), next(0.0, 0.6), next(0.0, 0.9), next(-2.0, 2.0)];

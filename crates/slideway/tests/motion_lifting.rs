@@ -256,14 +256,19 @@ fn a_box_tips_while_it_slides() {
     is_near(end.velocities[0].angular, state[3], 1e-7);
 }
 
+/// Numbers between two limits, one after another, from a seed (a linear congruential generator).
+pub(crate) fn numbers(seed: u64) -> impl FnMut(f64, f64) -> f64 {
+    let mut state = seed;
+    move |low, high| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * f64::from(u32::try_from(state >> 33).unwrap()) / f64::from(1_u32 << 31)
+    }
+}
+
 /// No impact adds energy, and the balance closes: blocks thrown with random tilt and rates.
 #[test]
 fn impacts_take_energy() {
-    let mut random = 1_u64;
-    let mut next = |low: f64, high: f64| {
-        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * f64::from(u32::try_from(random >> 33).unwrap()) / f64::from(1_u32 << 31)
-    };
+    let mut next = numbers(1);
     let mut count = 0;
     for _ in 0..60 {
         let [tilt, u, v, w] = [next(-40.0, 40.0), next(-2.0, 2.0), next(-3.0, 0.0), next(-5.0, 5.0)];

@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
 
-use crate::motion_lifting::{lost, words};
-use slideway::model::{Model, Settings};
-use slideway::motion::{End, History, SimulateOptions, simulate};
+use crate::motion_impacts::{history, impacts};
 
 /// A block of 200 x 100 mm and 2 kg that slides with 0.5 m/s on the lower of two faces, `play` apart beyond its height, and is
 /// pulled by 30 N at a height above its middle (m).
@@ -46,13 +44,6 @@ fn block_with_play(play: f64, height: f64) -> String {
     )
 }
 
-fn history(text: &str, duration: f64) -> History {
-    let model = Model::parse(text).unwrap().with(&Settings::default()).unwrap();
-    let history = simulate(&model, &SimulateOptions::new(duration)).unwrap();
-    assert_eq!(history.end, End::Finished, "{:#?}", words(&history));
-    history
-}
-
 /// Pulled 120 mm above its middle the block tips, its front corner below and its rear corner above hit by turns, and then both
 /// slide. The way after 0.2 s is that of an event-driven program of its own (case `block_slider_with_play`), which follows
 /// impacts down to 1e-7 m/s; the flights that are left out here, within 1e-11 of the size, are worth 3e-7 m. As the play goes to
@@ -76,12 +67,7 @@ fn a_guide_with_little_play_is_one_without() {
 #[test]
 fn rattling_ends_in_finite_time() {
     let history = history(&block_with_play(2e-4, 0.3), 0.01);
-    let times: Vec<f64> = history
-        .events
-        .iter()
-        .filter(|event| event.causes.iter().any(|cause| lost(cause).is_some()))
-        .map(|event| event.time)
-        .collect();
+    let times: Vec<f64> = impacts(&history).into_iter().map(|[time, _]| time).collect();
     let expected = [
         0.002_812_474_923,
         0.004_201_147_919,
