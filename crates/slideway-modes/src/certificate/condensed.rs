@@ -104,6 +104,7 @@ impl Condensed {
         let mut integers = combined.integers().into_iter();
         Some(Cramer { determinant: integers.next()?, numerators: vec![integers.collect()] })
     }
+
     /// The equations of the others, times the determinant of the columns of free contacts: those columns are zero.
     pub(crate) fn left(&self, system: &LiftedSystem) -> LiftedSystem {
         let size = self.others.len();

@@ -3,7 +3,6 @@
 use super::Configuration;
 use crate::ids::ContactId;
 use crate::mechanism::{Attachment, Contact, Mechanism, Slider};
-use crate::model::SliderKind;
 
 /// Within this part of the size of the mechanism beyond its end a contact still meets its face: what the drawing puts at the end is
 /// off by rounding.
@@ -22,10 +21,8 @@ impl Configuration {
         let [block, guide] = [slider.block, slider.guide]
             .map(|frame| self.position(mechanism, &Attachment { frame, position }));
         let along = self.direction(slider.guide, slider.tangent).dot(&(block - guide));
-        let half = if slider.kind == SliderKind::Block { slider.length / 2.0 } else { 0.0 };
-        let [least, greatest] = slider.limits();
-        let place = along + contact.offset;
-        if end < 0.0 { place - (least - half) } else { greatest + half - place }
+        let ([least, greatest], place) = (slider.face_ends(), along + contact.offset);
+        if end < 0.0 { place - least } else { greatest - place }
     }
 
     /// Returns whether a contact that may lift off is beyond the ends of its face.

@@ -80,16 +80,18 @@ fn lifting(modes: &[ModeLimits], varied: &Varied) -> String {
         let Some(at) = at else { continue };
         let (names, lift) = (contacts.join(", "), ModeEndCause::LiftsOff.of_contacts(contacts.len() > 1));
         let on = if way == "from" { " on" } else { "" };
-        let value = varied.shown_in.brief(at);
-        let at = if varied.is_friction_factor() {
-            format!("{value} times this friction")
-        } else {
-            format!("{} = {value}", varied.name)
-        };
-        sentences.push(format!(" {names} {lift} {way} {at}{on}."));
+        sentences.push(format!(" {names} {lift} {way} {}{on}.", value_in_words(varied, at)));
     }
     sentences.dedup();
     sentences.concat()
+}
+
+/// A value of what is varied: "speed = 43.88 rad/s", "2.222 times this friction".
+fn value_in_words(varied: &Varied, at: f64) -> String {
+    match varied.shown_in.brief(at) {
+        factor if varied.is_friction_factor() => format!("{factor} times this friction"),
+        value => format!("{} = {value}", varied.name),
+    }
 }
 
 /// The limit in one sentence, if the mechanism moves on one side of it and jams on the other, up to an end of the range or
@@ -106,10 +108,7 @@ fn summary(pieces: &[Piece], gaps: &[[f64; 2]], varied: &Varied) -> Option<Strin
             format!("for {} from {from} to {to}", varied.name)
         }
     };
-    let at = |piece: &Piece| match varied.shown_in.brief(piece.from) {
-        factor if is_factor => format!("{factor} times this friction"),
-        value => format!("{} = {value}", varied.name),
-    };
+    let at = |piece: &Piece| value_in_words(varied, piece.from);
     let is_certain = |piece: &Piece| piece.known != Known::Undecided;
     match pieces {
         pieces if !pieces.iter().all(is_certain) => None,

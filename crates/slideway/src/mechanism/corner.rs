@@ -240,10 +240,8 @@ impl Mechanism {
 
 /// Where a straight face begins and ends along its tangent in the drawing (m), infinite where it has no ends.
 fn ends_of(face: &Slider) -> [f64; 2] {
-    let half = if face.kind == SliderKind::Block { face.length / 2.0 } else { 0.0 };
-    let [least, greatest] = face.travel.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
     let at = face.tangent.dot(&face.at);
-    [at + least - half, at + greatest + half]
+    face.face_ends().map(|end| at + end)
 }
 
 /// Returns whether a place is a corner of what lies between several places, each nearer than `near` counting as it: in some

@@ -515,6 +515,14 @@ impl Slider {
         };
         [limit(0).unwrap_or(f64::NEG_INFINITY), limit(1).unwrap_or(f64::INFINITY)]
     }
+
+    /// The ends of the face of contacts that may lift off, from the place of the joint along it (m): the middle of a block stays half
+    /// its length within them.
+    pub(crate) fn face_ends(&self) -> [f64; 2] {
+        let half = if self.kind == SliderKind::Block { self.length / 2.0 } else { 0.0 };
+        let [least, greatest] = self.limits();
+        [least - half, greatest + half]
+    }
 }
 
 impl Mechanism {

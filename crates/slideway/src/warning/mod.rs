@@ -106,7 +106,6 @@ pub fn warnings(model: &Model) -> Faults {
         found.extend(great_friction(model));
         found.extend(wide_friction_circles(model, &mechanism));
         found.extend(great_gravity(model, &mechanism));
-
         found.extend(no_loads(&mechanism));
         found.extend(behind_faces(&mechanism));
         found.extend(gap_closed(model, &mechanism));
@@ -143,18 +142,15 @@ fn great_gravity(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
         Gravity::None => return None,
         Gravity::Down(id) | Gravity::Components([_, id]) => id,
     };
-    let value = mechanism.units.of("m/s^2").show(gravity);
-    let doubt = Doubt::GreatGravity { value };
-    Some(warning(
-        doubt,
-        model.setting_of(&[formula]).unwrap_or_else(|| model.formula(formula).origin.place()),
-    ))
+    let doubt = Doubt::GreatGravity { value: mechanism.units.of("m/s^2").show(gravity) };
+    let place = model.setting_of(&[formula]).unwrap_or_else(|| model.formula(formula).origin.place());
+    Some(warning(doubt, place))
 }
 
 /// Friction of what nothing presses but its own motion.
 fn no_loads(mechanism: &Mechanism) -> Option<Fault> {
     let loads = mechanism.loads.len() + mechanism.drives.len();
-    let presses = |contact: &Contact| contact.preload != [0.0; 2] || is_displaced(contact);
+    let presses = |contact: &Contact| rubs(contact) || is_displaced(contact);
     let is_idle = loads == 0
         && mechanism.gravity == Vector2::zeros()
         && mechanism.contacts.iter().any(is_rough)
@@ -176,6 +172,10 @@ fn is_rough(contact: &Contact) -> bool {
     contact.mu != [0.0; 2]
 }
 
+fn rubs(contact: &Contact) -> bool {
+    contact.preload != [0.0; 2]
+}
+
 fn is_displaced(contact: &Contact) -> bool {
     contact.misalignment != 0.0 || contact.misalignment_law.is_some() || contact.face.is_some()
 }
@@ -184,7 +184,6 @@ fn is_displaced(contact: &Contact) -> bool {
 /// zero, as nothing on the right-hand side of the equations is not. Redundant guides that are out of line press by
 /// themselves.
 fn nothing_presses(mechanism: &Mechanism, state: &State<'_>) -> Option<Fault> {
-    let rubs = |contact: &Contact| contact.preload != [0.0; 2];
     let contacts = &mechanism.contacts;
     if mechanism.drives.is_empty() || !contacts.iter().any(is_rough) || contacts.iter().any(rubs) {
         return None;

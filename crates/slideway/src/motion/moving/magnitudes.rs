@@ -8,6 +8,11 @@ use crate::mechanism::{Mechanism, body_of};
 /// Velocities below this part of what the greatest force gives a part on the size of the mechanism do not count.
 const LITTLE_VELOCITY: f64 = 1e-2;
 
+/// The greatest component of a velocity or acceleration of a body, rotations times the size of the mechanism (m/s or m/s^2).
+pub(in crate::motion) fn in_metres(of_body: &[f64], size: f64) -> f64 {
+    of_body[0].abs().max(of_body[1].abs()).max(of_body[2].abs() * size)
+}
+
 /// The greatest magnitudes of a part so far.
 #[derive(Debug, Clone, Copy, Default)]
 pub(in crate::motion) struct Magnitude {
@@ -82,8 +87,7 @@ impl Magnitudes {
         let bodies = self.parts.len();
         let rates = state[3 * bodies..6 * bodies].chunks_exact(3);
         for (part, rate) in self.parts.iter().zip(rates) {
-            let velocity = rate[0].abs().max(rate[1].abs()).max(rate[2].abs() * self.size);
-            self.list[*part].velocity = self.list[*part].velocity.max(velocity);
+            self.list[*part].velocity = self.list[*part].velocity.max(in_metres(rate, self.size));
         }
     }
 
@@ -93,8 +97,7 @@ impl Magnitudes {
     pub(in crate::motion) fn notice_accelerations(&mut self, accelerations: &[f64]) -> f64 {
         let mut greatest = vec![0.0_f64; self.list.len()];
         for (part, of_body) in self.parts.iter().zip(accelerations.chunks_exact(3)) {
-            let acceleration = of_body[0].abs().max(of_body[1].abs()).max(of_body[2].abs() * self.size);
-            greatest[*part] = greatest[*part].max(acceleration);
+            greatest[*part] = greatest[*part].max(in_metres(of_body, self.size));
         }
         let mut shortest = f64::INFINITY;
         for (magnitude, acceleration) in self.list.iter_mut().zip(greatest) {

@@ -17,7 +17,7 @@ use crate::motion::decision::rules::{Decisions, Hold, Resting};
 use crate::motion::decision::{Outlook, scale_of_forces};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Equations, Failure, joint_rests};
-use crate::motion::moving::magnitudes::Magnitudes;
+use crate::motion::moving::magnitudes::{Magnitudes, in_metres};
 use crate::motion::moving::resolution::Resolution;
 use crate::motion::moving::stepper::{DENSE, StepControl, Stepper};
 use crate::motion::moving::switching::{Switch, Switching};
@@ -137,10 +137,10 @@ impl<'o, 'm> Smooth<'o, 'm> {
     /// give.
     pub(in crate::motion) fn is_still(&self) -> bool {
         let Equations { mechanism, .. } = &self.equations;
-        let rates = self.state[3 * mechanism.bodies.len()..].chunks_exact(3).zip(0..mechanism.bodies.len());
-        rates.into_iter().all(|(rate, body)| {
-            let little = REST * self.watch.magnitudes.of_body(body).velocity;
-            rate[0].abs().max(rate[1].abs()).max(rate[2].abs() * mechanism.size) <= little
+        let bodies = mechanism.bodies.len();
+        let mut rates = self.state[3 * bodies..6 * bodies].chunks_exact(3).enumerate();
+        rates.all(|(body, rate)| {
+            in_metres(rate, mechanism.size) <= REST * self.watch.magnitudes.of_body(body).velocity
         })
     }
 

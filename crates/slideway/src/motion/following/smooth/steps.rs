@@ -176,25 +176,27 @@ impl Smooth<'_, '_> {
                     }
                     _ => return false,
                 };
-                let samples = self.values.iter().filter_map(|values| values.get(index));
-                let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
-                let stops = causes.contains(&cause);
                 let velocity = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0);
-                stops && velocity > little && velocity > VANISHED * greatest
+                causes.contains(&cause) && self.is_far_from_zero(index, velocity, little)
             })
+    }
+
+    /// Returns whether a watched function, by its number, is not zero at the end of the step with this value there, compared with
+    /// what is little, and with its greatest value in the step.
+    fn is_far_from_zero(&self, index: usize, value: f64, little: f64) -> bool {
+        let samples = self.values.iter().filter_map(|values| values.get(index));
+        let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
+        value > little && value > VANISHED * greatest
     }
 
     /// Returns whether a normal force that should have vanished at the end of the step is far from zero: it is not continuous
     /// within what the errors of steps permit, since the determinant of the mode vanishes there.
     pub(super) fn jumps_through_zero(&self, watched: &[Watched], phase: &Phase) -> bool {
-        watched.iter().any(|watched| {
+        let mut forces = watched.iter().filter(|watched| matches!(watched, Watched::NormalForce(_)));
+        forces.any(|watched| {
             let Some(index) = self.watch.list.iter().position(|one| one == watched) else { return false };
-            let samples = self.values.iter().filter_map(|values| values.get(index));
-            let greatest = samples.fold(0.0, |greatest: f64, value| greatest.max(*value));
-            let value = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0).abs();
-            matches!(watched, Watched::NormalForce(_))
-                && value > self.watch.tolerance(*watched, &self.equations)
-                && value > VANISHED * greatest
+            let force = self.watch.value(*watched, phase, &self.equations).unwrap_or(0.0).abs();
+            self.is_far_from_zero(index, force, self.watch.tolerance(*watched, &self.equations))
         })
     }
 
