@@ -434,9 +434,10 @@ function showStrip(asked = state.changes) {
 
 /** The question that the strip answers, and what to do. */
 function invitation({ kind, name, meaning, is_friction }) {
+  const asks = look.is_at_rest ? "Does it hold?" : "Does it jam?";
   const what = [is_friction ? "the friction" : kind === "position" ? "the position" : "", name].filter(Boolean).join(" ");
   const means = kind === "parameter" && meaning ? ` (${meaning})` : "";
-  return `${is_friction ? "Does it jam?" : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} ${what}${means}.`;
+  return `${is_friction ? asks : "What changes?"} ${isHere ? "Drag" : "In a moment, drag"} ${what}${means}.`;
 }
 
 /** Asks where each mode exists, unless that is known: it does not depend on the value that is varied. */

@@ -43,16 +43,36 @@ const NEAR = 0.05;
 /** How wide a letter is at most, on average. */
 const LETTER = 7.5;
 
+/** The limits of rest as those of motion: a stretch that holds counts as one with a solution. */
+const asCounts = (report) => {
+  if (!report.spans) return report;
+  const isKnown = ({ holds }) => holds !== null;
+  const counted = ({ holds, ...span }) => ({
+    ...span,
+    solutions: Number(holds),
+    words: holds ? "it holds" : "it does not hold",
+  });
+  return {
+    ...report,
+    modes: [],
+    counts: report.spans.filter(isKnown).map(counted),
+    without_mode_problem: report.spans
+      .filter((span) => !isKnown(span))
+      .map((span) => ({ reason: "not decided", ...span })),
+  };
+};
+
 /** How many solutions a stretch has, for its style, and in words. */
 const kindOf = ({ solutions, continuum }) => (continuum ? "many" : Math.min(solutions, 3));
-const inNumber = ({ solutions, continuum }) =>
-  continuum
+const inNumber = ({ solutions, continuum, words }) =>
+  words ??
+  (continuum
     ? "infinitely many"
     : solutions === 1
       ? "1 solution"
       : solutions === 0
         ? "no solution"
-        : `${solutions} solutions`;
+        : `${solutions} solutions`);
 
 /** What exists along the strip, and what each row of it shows: a mode, or how it starts where contacts are at rest. */
 const rowsOf = (report) => [
@@ -125,7 +145,7 @@ export class Strip {
   /** Shows the limits of a reply, or why there are none. */
   took({ answer, faults }) {
     if (faults) this.refuse(faults.map(inWords).join("; "));
-    else this.#show(JSON.parse(answer.json));
+    else this.#show(asCounts(JSON.parse(answer.json)));
   }
 
   /** There is another model. */
@@ -200,12 +220,12 @@ export class Strip {
     if (!here || hasNone(here)) return "";
     const edges = counts
       .filter(hasNone)
-      .map((count) => (count.from > value * scale ? ["from", count.from] : ["up to", count.to]))
-      .map(([side, end]) => ({ side, end: end / scale, far: Math.abs(end / scale - value) }))
+      .map((count) => [inNumber(count), ...(count.from > value * scale ? ["from", count.from] : ["up to", count.to])])
+      .map(([words, side, end]) => ({ words, side, end: end / scale, far: Math.abs(end / scale - value) }))
       .sort((one, other) => one.far - other.far);
     const [edge] = edges;
     if (!edge || edge.far > NEAR * (to - from)) return "";
-    return `Near its limit: no solution ${edge.side} ${name} = ${withUnit(edge.end, unit)}.`;
+    return `Near its limit: ${edge.words} ${edge.side} ${name} = ${withUnit(edge.end, unit)}.`;
   }
 
   /** Words on a stretch of a row, as far as there is space for them. */
@@ -286,7 +306,7 @@ export class Strip {
         }),
       );
       const words = inNumber(count);
-      const short = count.continuum ? "∞" : String(count.solutions);
+      const short = count.words ? "" : count.continuum ? "∞" : String(count.solutions);
       if (end - start > 16)
         this.#svg.append(
           label(
@@ -298,7 +318,7 @@ export class Strip {
           ),
         );
     }
-    this.#svg.append(label("pattern", LEFT - 8, bottom + 20, "end", "solutions"));
+    this.#svg.append(label("pattern", LEFT - 8, bottom + 20, "end", this.#report?.spans ? "at rest" : "solutions"));
     for (const value of ticks(this.#vary.from, this.#vary.to, Math.max(3, width / 110))) {
       const x = this.#place(value);
       this.#svg.append(

@@ -7,6 +7,7 @@ import { tmpdir } from "node:os";
 import { resolve } from "node:path";
 import { test } from "node:test";
 import { start } from "../src/engine.js";
+import { stripOf } from "../src/strip.js";
 import { engine, program, top } from "../tools/places.js";
 
 const ask = await start(await WebAssembly.compile(readFileSync(engine)));
@@ -86,6 +87,42 @@ for (const name of models) {
     assertSame({ ask: "limits", text: text(name), vary: "friction" }, "limits", `models/${name}`, "--vary", "friction");
   });
 }
+
+test("what a page begins with can be dragged over its length", () => {
+  for (const name of models) {
+    const asked = (settings = []) => ask({ ask: "look", text: text(name), margins: false, settings });
+    const { kind, name: varied, from, to } = stripOf(asked().answer.quantities);
+    const { unit } = asked().answer.quantities.find((quantity) => quantity.kind === kind && quantity.name === varied);
+    for (const part of [0, 0.25, 0.5, 0.75, 1]) {
+      const value = `${from + part * (to - from)} ${unit}`.trim();
+      const { faults } = asked([setting(kind, varied, value)]);
+      assert.equal(faults, undefined, `${name}, ${varied} = ${value}: ${JSON.stringify(faults)}`);
+    }
+  }
+});
+
+// Loaded at x = 304.8 mm the bracket of height B = 152.4 mm holds from mu_static = B/(2 x) = 0.25 on.
+test("where nothing that moves has a mass, rest is the question", () => {
+  const asked = { text: text("bracket-on-pole.toml") };
+  const { answer } = ask({ ask: "look", ...asked, margins: false });
+  assert.ok(answer.is_at_rest);
+  assert.equal(answer.answer.status, "one");
+  assert.match(answer.answer.words, /^Just self-locking: it holds/);
+  assert.deepEqual(
+    answer.quantities.filter(({ is_friction }) => is_friction).map(({ name }) => name),
+    ["mu_static"],
+  );
+  const far = ask({ ask: "look", ...asked, margins: false, settings: [setting("parameter", "x", "300 mm")] }).answer;
+  assert.equal(far.answer.status, "none");
+  // What the command line would do is no advice on the page.
+  assert.doesNotMatch(answer.reasons.join(), /slideway/);
+  const { spans } = JSON.parse(ask({ ask: "limits", ...asked, vary: "mu_static=0.2..0.3" }).answer.json);
+  assert.deepEqual(
+    spans.map(({ holds }) => holds),
+    [false, true],
+  );
+  assert.ok(Math.abs(spans[1].from - 0.25) < 1e-8);
+});
 
 test("settings count as on the command line", () => {
   const asked = {

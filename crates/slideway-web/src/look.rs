@@ -12,11 +12,12 @@ use slideway::fault::Faults;
 use slideway::model::Model;
 use slideway::printable::line;
 use slideway::progress::Callback;
-use slideway::report::{SolveReport, Status};
+use slideway::report::{Report, SolveReport, Status};
+use slideway::standstill::HoldReport;
 use slideway::warning::{ranges_at_middle, warnings};
 use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Held, Sheet, title};
-use slideway_pictures::page::{reasons, solve_parts};
+use slideway_pictures::page::{at_rest, reasons, rest_part, solve_parts};
 
 /// The look of a state on the page: its quantities, drawings and answer.
 #[derive(Debug, Serialize)]
@@ -33,9 +34,12 @@ pub(crate) struct Look {
     drawings: Vec<Drawing>,
     /// The scale and the place that the drawings of the next state of the same model keep of these.
     held: Option<Kept>,
-    /// How many solutions there are; absent where the question has no answer.
+    /// How many solutions there are; whether it holds at rest where the question of motion has no answer; absent where
+    /// neither has one.
     answer: Option<Verdict>,
-    /// Why there is no answer.
+    /// Whether the answer is about rest.
+    is_at_rest: bool,
+    /// Why the question of motion has no answer.
     reasons: Vec<String>,
 }
 
@@ -80,6 +84,19 @@ impl Verdict {
             sections: solve_parts(report),
         }
     }
+
+    fn of_rest(report: &HoldReport) -> Self {
+        Self {
+            status: if report.holds { Status::One } else { Status::None },
+            partial: false,
+            known: "Computed at rest; its motion has no answer.".to_owned(),
+            count: String::new(),
+            // Names stand in the headline as they are.
+            words: report.answer().replace('`', ""),
+            patterns: Vec::new(),
+            sections: vec![rest_part(report)],
+        }
+    }
 }
 
 /// The state of a model.
@@ -101,18 +118,29 @@ pub(crate) fn look(
     let (sheets, held) = state.drawn(held, most);
     let State { mechanism, configuration, solved } = &state;
     let coordinates = coordinates_of(&model, mechanism, configuration)?;
+    let rest = if solved.is_ok() { None } else { at_rest(&model, true, callback).ok() };
     Ok(Look {
         title: line(&title(mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
         left_out: model.parameters.len().saturating_sub(MOST),
-        quantities: quantities(&file, &model, &asked.text, mechanism, &coordinates)?,
+        quantities: quantities(&file, &model, (&asked.text, rest.is_some()), mechanism, &coordinates)?,
         loads: mechanism.loads.iter().map(|load| load.name.to_string()).collect(),
         drives: mechanism.drives.iter().map(|drive| drive.name.to_string()).collect(),
         drawings: sheets.iter().filter_map(Drawing::of).collect(),
         held: held.map(Kept::from),
-        answer: solved.as_ref().ok().map(Verdict::of),
-        reasons: solved.as_ref().err().map(reasons).unwrap_or_default(),
+        answer: solved.as_ref().ok().map(Verdict::of).or_else(|| rest.as_ref().map(Verdict::of_rest)),
+        is_at_rest: rest.is_some(),
+        reasons: solved.as_ref().err().map(|faults| why(faults, rest.is_some())).unwrap_or_default(),
     })
+}
+
+/// Why motion has no answer; what to do instead only if rest has none either.
+fn why(faults: &Faults, is_at_rest: bool) -> Vec<String> {
+    if is_at_rest {
+        faults.sorted().iter().map(|fault| line(&fault.kind.to_string()).into_owned()).collect()
+    } else {
+        reasons(faults)
+    }
 }
 
 fn all_warnings(model: &Model) -> Faults {

@@ -17,7 +17,7 @@ use std::f64::consts::FRAC_PI_2;
 pub(crate) const MOST: usize = 300;
 /// A positive parameter goes from this part of its value to this multiple.
 const AROUND: [f64; 2] = [0.2, 2.0];
-/// A coefficient of friction goes from zero at least to this.
+/// A coefficient of friction goes from zero at least to this, as far as static friction beside kinetic friction allows.
 const FRICTION: f64 = 1.0;
 /// A displacement without limits of travel goes as far as this part of the mechanism to both sides.
 const SLIDE: f64 = 0.5;
@@ -40,21 +40,21 @@ pub(crate) struct Quantity {
     to: f64,
     /// Whether it is computed from other parameters.
     is_computed: bool,
-    /// Whether it is a coefficient of friction, or one is computed from it.
+    /// Whether it is a coefficient of friction, or one is computed from it; at rest a kinetic one beside a static one is none.
     is_friction: bool,
 }
 
 /// The first parameters, the coordinates, and the rates of those that can move, in the order of the file.
 ///
 /// Meaning, unit, and the ends of a parameter's slider are those of the model as it is in the file, whatever is set: a
-/// slider that is dragged stays the same slider.
+/// slider that is dragged stays the same slider. `is_at_rest`: whether rest is the question.
 ///
 /// # Errors
 /// Parameters without a value that is allowed.
 pub(crate) fn quantities(
     file: &Model,
     model: &Model,
-    text: &str,
+    (text, is_at_rest): (&str, bool),
     mechanism: &Mechanism,
     state: &[CoordinateSummary],
 ) -> Result<Vec<Quantity>, Faults> {
@@ -62,8 +62,9 @@ pub(crate) fn quantities(
     let values_in_file =
         file.constants().map_or_else(|_| values.clone(), |known| file.parameter_values(&known));
     let parameters = file.parameters.iter().zip(values_in_file.into_iter().zip(values)).take(MOST);
-    let mut all: Vec<Quantity> =
-        parameters.map(|(parameter, values)| of_parameter(file, text, parameter, values)).collect();
+    let mut all: Vec<Quantity> = parameters
+        .map(|(parameter, values)| of_parameter(file, (text, is_at_rest), parameter, values))
+        .collect();
     let size = mechanism.size;
     for (index, coordinate) in file.coordinates.iter().enumerate() {
         let Some(state) = state.get(index) else { continue };
@@ -93,13 +94,17 @@ impl Quantity {
 /// A parameter of the model in the file, with its value there and its present one.
 fn of_parameter(
     file: &Model,
-    text: &str,
+    (text, is_at_rest): (&str, bool),
     parameter: &slideway::model::Parameter,
     (in_file, value): (f64, f64),
 ) -> Quantity {
     let si = file.parameter_unit(&parameter.name);
     let unit = file.units.parameter(&parameter.name, &si);
-    let is_friction = file.is_friction_coefficient(&parameter.name);
+    let allowed = file.friction_range(&parameter.name);
+    let is_friction = match allowed.filter(|_| is_at_rest) {
+        Some([_, greatest]) => greatest == f64::INFINITY,
+        None => file.is_friction_coefficient(&parameter.name),
+    };
     let formula = &file.formulas[parameter.value.index()];
     let is_computed = formula.expression.symbols().any(|(symbol, _)| matches!(symbol, Symbol::Parameter(_)));
     let ends = if is_friction && si.is_empty() && in_file >= 0.0 {
@@ -113,6 +118,7 @@ fn of_parameter(
     } else {
         [AROUND[1] * in_file, -AROUND[1] * in_file]
     };
+    let ends = allowed.map_or(ends, |[least, greatest]| [ends[0].max(least), ends[1].min(greatest)]);
     let meaning = match formula.origin.source {
         Source::Model => comment(text, formula.origin.span.end),
         _ => None,

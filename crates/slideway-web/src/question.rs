@@ -41,7 +41,7 @@ pub(crate) enum Question {
     },
     /// `slideway drive`
     Drive(Asked),
-    /// `slideway limits`
+    /// `slideway limits`, or `slideway hold --vary` where motion has no answer
     Limits {
         #[serde(flatten)]
         of: Asked,

@@ -12,7 +12,7 @@ use slideway::choice::Choice;
 use slideway::configuration::Configuration;
 use slideway::drive::drive_with;
 use slideway::fault::{Fault, FaultKind, Faults};
-use slideway::limits::{LimitsOptions, Quantity, curves_with, limits_with};
+use slideway::limits::{LimitsOptions, Quantity, curves_with, limits_with, rest_limits_with};
 use slideway::map::{ColourBy, MapOptions, map_with};
 use slideway::mechanism::Mechanism;
 use slideway::model::{Setting, SettingKind};
@@ -142,7 +142,14 @@ fn limited(
     let model = of.model()?;
     let options = LimitsOptions::new(vary(varied)?);
     let (report, svg) = match plotted {
-        None => (limits_with(&model, &options, callback)?, None),
+        None => match limits_with(&model, &options, callback) {
+            Ok(report) => (report, None),
+            // Where motion has no answer, as what moves has no mass, rest is the question.
+            Err(faults) => {
+                let rest = rest_limits_with(&model, &options.vary, &HoldOptions::default(), callback);
+                return Ok(rest.map_err(|_| faults)?.map(|report| Told::of(&report)));
+            }
+        },
         Some(theme) => match curves_with(&model, &options, Quantity::NormalForce, callback)? {
             None => (None, None),
             Some((report, curves)) => {

@@ -64,3 +64,23 @@ fn a_range_that_is_not_given_contains_the_jam_that_is_known() {
         assert!(answer.starts_with(&format!("It jams from {jams} on")), "{answer}");
     }
 }
+
+/// A kinetic coefficient is not above its static one, whatever the usual range of friction is.
+#[test]
+fn kinetic_friction_ends_at_its_static_friction() {
+    for (name, static_friction) in
+        [("stick-slip", 0.4), ("frictional-oscillator", 0.25), ("bracket-on-pole", 0.25)]
+    {
+        let model = model(name);
+        assert_eq!(model.friction_range("mu"), Some([0.0, static_friction]), "{name}");
+        let kinetic = if name == "stick-slip" { 0.25 } else { 0.2 };
+        assert_eq!(model.friction_range("mu_static"), Some([kinetic, f64::INFINITY]), "{name}");
+    }
+    let report = limits(&model("stick-slip"), &LimitsOptions::new(Vary::usual("mu"))).unwrap();
+    assert_eq!([report.vary.from, report.vary.to], [0.0, 0.4]);
+    assert!(report.without_mode_problem.is_empty());
+    // Nothing is at rest in another way than it slides here, and a length is no friction.
+    let drawer = model("drawer");
+    assert_eq!(drawer.friction_range("mu"), Some([0.0, f64::INFINITY]));
+    assert_eq!(drawer.friction_range("L"), None);
+}

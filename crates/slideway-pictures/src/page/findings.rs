@@ -65,7 +65,7 @@ impl Findings {
         );
         let limits = varied(model, wanted, &mut look)?;
         let efficiency = efficiency(model, &mut look);
-        let rest = rest(model, answer.is_err(), &mut look);
+        let rest = at_rest(model, answer.is_err(), &mut look);
         let limits = limits.filter(|_| is_whole);
         let at_middle = at_middle(model)?;
         Ok(limits.map(|limits| Self { title, at_middle, drawings, answer, efficiency, rest, limits }))
@@ -131,7 +131,14 @@ fn efficiency(model: &Model, callback: &mut Callback<'_>) -> Vec<String> {
 
 /// Whether it stays at rest, or why that is not known; no reason where the work was ended. Where rest is the question, as there
 /// is no answer in motion, also up to which size it holds the load, if there is only one.
-fn rest(model: &Model, is_question: bool, callback: &mut Callback<'_>) -> Result<HoldReport, Vec<String>> {
+///
+/// # Errors
+/// The reasons, in words.
+pub fn at_rest(
+    model: &Model,
+    is_question: bool,
+    callback: &mut Callback<'_>,
+) -> Result<HoldReport, Vec<String>> {
     let mut options = HoldOptions::default();
     options.load = only_load(model).ok().filter(|_| is_question);
     let found = hold_with(model, &options, callback);

@@ -12,7 +12,7 @@ mod body;
 mod findings;
 mod summary;
 
-pub use findings::{Findings, Origin, reasons};
+pub use findings::{Findings, Origin, at_rest, reasons};
 
 use crate::coordinate::{NotFinite, finished};
 use crate::drawing::Sheet;
@@ -91,6 +91,11 @@ pub fn solve_parts(report: &SolveReport) -> Vec<String> {
 /// Returns the section of a page about limits: the conclusion, and a table of the modes.
 pub fn limits_part(report: &LimitsReport) -> String {
     body::limits_of(report)
+}
+
+/// Returns the section of a page about rest: whether it holds, and what is known of its load.
+pub fn rest_part(report: &HoldReport) -> String {
+    summary::part("At rest", &[report.verdict_in_words()])
 }
 
 /// The head of the page, which goes on until the body begins.

@@ -181,7 +181,8 @@ impl fmt::Display for Vary {
 
 /// A range around the value in the model; coordinates and values of zero need one. Angles, which are known by
 /// their unit, have the quarter turn in which they stand: sines and cosines keep their signs there. Friction
-/// has one from zero on, with the friction in it at which the number of solutions is known to change.
+/// has one from zero on, with the friction in it at which the number of solutions is known to change; kinetic friction
+/// not beyond its static friction.
 ///
 /// # Errors
 /// A fault if a range is needed.
@@ -190,7 +191,9 @@ pub(crate) fn range_around(model: &Model, varied: &Varied) -> Result<[f64; 2], F
     if varied.is_friction_factor() {
         Ok(with_changes(model, varied, present, 2.0 * FACTOR_AROUND))
     } else if model.is_friction_coefficient(&varied.name) {
-        Ok(with_changes(model, varied, present, (2.0 * present).max(1.0)))
+        let [least, greatest] = with_changes(model, varied, present, (2.0 * present).max(1.0));
+        let most = model.friction_range(&varied.name).map_or(greatest, |[_, most]| most);
+        Ok([least, greatest.min(most)])
     } else if varied.is_angle() && !varied.is_coordinate() {
         // Between two of them it has both. Adding zero turns -0 into 0.
         let quarters = present / FRAC_PI_2;

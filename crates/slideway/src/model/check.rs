@@ -126,11 +126,40 @@ impl Model {
         wanted.is_some_and(|wanted| coefficients.any(|id| self.same_as(id).any(|same| same == wanted.value)))
     }
 
+    /// The least and the greatest value that a friction coefficient can have beside the others as they are: a static one is not
+    /// below its kinetic one. Nothing for what is no coefficient itself, where a parameter has no value that is allowed, and
+    /// where less than two values are left.
+    pub fn friction_range(&self, parameter: &str) -> Option<[f64; 2]> {
+        let wanted = self.parameters.iter().position(|other| &*other.name == parameter)?;
+        if !self.is_itself_friction(parameter) {
+            return None;
+        }
+        let values = self.constants().ok()?;
+        let mut range = [0.0, f64::INFINITY];
+        let is_it = |id| self.same_as(id).any(|same| same == self.parameters[wanted].value);
+        let bound = |id: FormulaId| (!self.uses(id, wanted)).then(|| values[id.index()]);
+        for [kinetic, at_rest] in self.pairs_of_coefficients() {
+            if is_it(kinetic) {
+                range[1] = bound(at_rest).map_or(range[1], |most| most.min(range[1]));
+            } else if is_it(at_rest) {
+                range[0] = bound(kinetic).map_or(range[0], |least| least.max(range[0]));
+            }
+        }
+        Some(range).filter(|[least, greatest]| least < greatest)
+    }
+
     /// The kinetic and static friction coefficients of all contacts and hinges.
     pub(crate) fn friction_coefficients(&self) -> impl Iterator<Item = FormulaId> {
+        self.pairs_of_coefficients().flatten()
+    }
+
+    /// The kinetic friction coefficient of each side of each contact and of each hinge, with its static one.
+    fn pairs_of_coefficients(&self) -> impl Iterator<Item = [FormulaId; 2]> {
         let of_hinges = self.hinge_friction().filter_map(|friction| friction.coefficients());
-        let of_contacts = self.contacts().flat_map(|contact| contact.mu.into_iter().chain(contact.mu_static));
-        of_contacts.chain(of_hinges.flatten())
+        let of_contacts = self
+            .contacts()
+            .flat_map(|contact| [0, 1].map(|side| [contact.mu[side], contact.mu_static[side]]));
+        of_contacts.chain(of_hinges)
     }
 
     /// The formulas that this one is nothing but, through parameters: first itself, last that with the number.
