@@ -291,10 +291,11 @@ class Asked:
             if report["end"]["kind"] == "finished" and "jams" not in causes and answer["status"] == "none":
                 self.fault("simulate: goes on", command, report, f"solve: {answer['status']}")
             return
-        if not report["events"] or any(cause["kind"] == "jams" for cause in report["events"][0]["causes"]):
+        # Where no joint has friction nothing begins: the first phase has the mode.
+        first = report["events"][0] if report["events"] else {"causes": [], "branches": [], **report["phases"][0]}
+        if any(cause["kind"] == "jams" for cause in first["causes"]):
             self.fault("simulate: no start", command, report, f"solve: {answer['status']}")
             return
-        first = report["events"][0]
         names = report["contacts"]
         contacts = len(names)          # behind them the mode has the directions in which rough hinges turn
         modes = [b["mode"][:contacts] for b in first["branches"]] or [first["mode"][:contacts]]
@@ -303,7 +304,7 @@ class Asked:
         if len(first["branches"]) > 1 and Counter(modes) != told or not set(modes) <= allowed:
             self.fault("simulate: modes", command, report, f"solve: {[s['pattern'] for s in listed]}")
             return
-        if report["stop"] == report["until"] and len(report["events"]) == 1:
+        if report["stop"] == report["until"] and len(report["events"]) <= 1:
             rates = [(b["rate"] - a["rate"]) / step for a, b in zip(report["initial"], report["last"])]
             taken = next((b["mode"] for b in first["branches"] if b["taken"]), first["mode"])[:contacts]
             true = [c["acceleration"] for s in listed if taken in {in_motion(s, p, names) for p in s["patterns"]} for c in s["coordinates"]]
