@@ -44,6 +44,8 @@ const BELOW: [f64; 2] = [1e-6, 1e-8];
 const ABOVE: [f64; 2] = [1e-4, 1e-6];
 /// Greater values of what is varied are not tried.
 const GREATEST: f64 = 1e6;
+/// A coefficient beyond this (a friction angle of 89.4 deg) is that of no surfaces: what needs more does not hold by itself.
+const GREATEST_COEFFICIENT: f64 = 100.0;
 
 /// Static friction as a function `constant + slope p` of what is varied.
 struct Law {
@@ -60,6 +62,11 @@ struct Law {
 impl Law {
     fn coefficients(&self, value: f64) -> Vec<[f64; 2]> {
         self.lines.iter().map(|sides| sides.map(|line| on(line, value))).collect()
+    }
+
+    /// The greatest coefficient of a contact.
+    fn greatest(&self, value: f64) -> f64 {
+        self.coefficients(value).into_iter().flatten().fold(0.0, f64::max)
     }
 
     fn friction(&self, setup: &Setup, value: f64) -> StaticFriction {
@@ -167,7 +174,8 @@ fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Optio
 }
 
 /// The least value, from `from` on, at which the load alone cannot slide: there it holds by itself. With kinetic friction as
-/// great as the static one, it slides in some state below. Nothing if that is so at every value tried.
+/// great as the static one, it slides in some state below. Nothing if that is so at every value tried, up to
+/// [`GREATEST_COEFFICIENT`].
 ///
 /// # Errors
 /// As [`Setup::new`].
@@ -187,7 +195,7 @@ fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<O
     let (mut below, mut above) = (from, (from * (1.0 + NEAR)).max(f64::MIN_POSITIVE));
     while slides(above) {
         (below, above) = (above, 2.0 * above);
-        if above > GREATEST || work.is_over() {
+        if above > GREATEST || law.greatest(above) > GREATEST_COEFFICIENT || work.is_over() {
             return Ok(None);
         }
     }
