@@ -80,7 +80,7 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
         ClassMeaning::Rest { holds: Some(true), .. } => plain(numbers[1]),
         ClassMeaning::Rest { holds: Some(false), .. } => plain(SLIPS),
-        ClassMeaning::Continuum { .. } => plain(theme.ink),
+        ClassMeaning::Continuum => plain(theme.ink),
         ClassMeaning::Undecided | ClassMeaning::TooLarge | ClassMeaning::Rest { holds: None, .. } => {
             Paint { fill: OPEN, hatching: Some(Hatching::Falling) }
         }

@@ -308,13 +308,11 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
         ClassMeaning::Rest { holds: Some(true), may_slip: true } => {
             "holds only if something has wedged it: do not rely on it".to_owned()
         }
-        ClassMeaning::Rest { holds: Some(true), .. } | ClassMeaning::Continuum { rests: true } => {
-            "holds".to_owned()
-        }
+        ClassMeaning::Rest { holds: Some(true), .. } => "holds".to_owned(),
         ClassMeaning::Rest { holds: Some(false), .. } => "does not hold".to_owned(),
         ClassMeaning::Rest { holds: None, .. } => "whether it holds is not decided".to_owned(),
         ClassMeaning::Undecided => "not decided: it is on the verge of jamming; take it as jammed".to_owned(),
-        ClassMeaning::Continuum { .. } => "infinitely many solutions".to_owned(),
+        ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
     }
