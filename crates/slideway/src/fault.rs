@@ -543,8 +543,8 @@ pub enum FaultKind {
     LoadUnused { load: String },
     #[error("the limit is in {typed}, which does not fit the drives")]
     LimitUnit { typed: String, wanted: &'static str },
-    #[error("whether {load} is held could not be decided")]
-    UndecidedAtRest { load: String },
+    #[error("whether {what} is held could not be decided")]
+    UndecidedAtRest { what: String },
     #[error("the limits of {modes} contact modes could not be computed")]
     LimitsNotComputed { modes: usize },
     #[error("a guided slider is between its faces, and how its state changes with friction is not followed")]

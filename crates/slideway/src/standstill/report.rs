@@ -84,6 +84,9 @@ pub struct HoldReport {
     pub wedging: Option<Wedging>,
     /// The load that is varied, if one is.
     pub load: Option<LoadReport>,
+    /// How much static friction the loads need as they are; absent with a varied load, and without friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionNeeded>,
     /// The states of rest, if there is one of which the reactions were decided.
     pub at_rest: Option<AtRest>,
     /// Every state in which it begins to move; empty also where motions without inertia kept them from being
@@ -99,7 +102,7 @@ pub struct HoldReport {
     pub rest_patterns: usize,
     /// States of joints and contact sides that were tried for release.
     pub release_patterns: usize,
-    /// Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be solved.
+    /// Patterns of both kinds, and of those of the load, of friction and of wedging, of which a linear program could not be solved.
     pub undecided: usize,
 }
 
@@ -108,7 +111,8 @@ impl HoldReport {
     pub fn is_decided(&self) -> bool {
         let of_load = self.load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
         let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
-        self.holds || self.undecided == of_load + of_wedging
+        let of_friction = self.friction.as_ref().map_or(0, |friction| friction.threshold.undecided);
+        self.holds || self.undecided == of_load + of_wedging + of_friction
     }
 
     /// The greatest magnitude of the reactions at rest (N or N m); 0 if it cannot rest.
@@ -183,6 +187,19 @@ pub struct LoadReport {
     pub certain_from: Option<f64>,
 }
 
+/// The static friction that the loads need as they are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct FrictionNeeded {
+    /// From which static friction on they can be held: at least where something has wedged the guides before.
+    pub threshold: Threshold,
+    /// From which value of the same on they are held for certain, since there it cannot slide; nothing if they never are.
+    pub certain_from: Option<f64>,
+    /// By how much all static friction may be divided until it may slide, below 1 where it may already: the inverse of
+    /// `certain_from`. Nothing where that is nothing, or 0: no friction is needed.
+    pub safety_factor: Option<f64>,
+}
+
 /// Whether redundant guides can be wedged: pressed against each other without any load, however hard.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -193,7 +210,7 @@ pub struct Wedging {
     pub threshold: Threshold,
 }
 
-/// The static friction from which on the load alone, however great, is held, or guides wedge.
+/// The static friction from which on the load alone, however great, is held, or all loads as they are, or guides wedge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Threshold {
