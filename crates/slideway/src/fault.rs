@@ -615,6 +615,9 @@ impl FaultKind {
         match self {
             Self::Expression(kind) | Self::WithoutValue { kind, .. } => kind.hint().or_else(|| expression_hint(kind)),
             Self::Axis { problem, .. } => problem.hint_for(face),
+            Self::NoneOf { one_of, .. } if one_of.contains(&"massless") => Some(
+                "write `mass = \"4 kg\"`, or `massless = true` if its weight and inertia do not matter".to_owned(),
+            ),
             Self::Doubt(doubt) => Some(doubt.hint_for(face)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)

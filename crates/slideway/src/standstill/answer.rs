@@ -105,7 +105,7 @@ const NOTHING: f64 = 1e-12;
 fn falls_freely(report: &HoldReport) -> bool {
     let is_zero = |range: &Range| {
         let ends = [range.least, range.greatest];
-        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.greatest_at_rest()))
+        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.force))
     };
     let nothing_presses = |release: &Release| {
         let contacts = &release.reactions.contacts;

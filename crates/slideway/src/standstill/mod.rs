@@ -199,6 +199,7 @@ pub(crate) fn hold_within(
         one_face_hints: Vec::new(),
         release_patterns: beginning.directions * rest_patterns,
         motions_without_inertia: beginning.motions_without_inertia,
+        force: setup.units.force,
         rest_patterns,
     };
     let states = report.normal_forces();

@@ -1,6 +1,5 @@
 //! What the analysis of standstill tells, as plain data.
 
-use super::ranges::greatest;
 use crate::one_face::NormalForces;
 use crate::report::{CoordinateState, LoadSharing, OneFaceHint};
 use crate::units::Units;
@@ -98,6 +97,9 @@ pub struct HoldReport {
     pub one_face_hints: Vec<OneFaceHint>,
     /// Motions of the joints without inertia; if there are any, `releases` was not sought.
     pub motions_without_inertia: Vec<String>,
+    /// The greatest force of its loads (N): what of a reaction is 10 digits below it is left over by the linear programs.
+    #[serde(skip)]
+    pub(super) force: f64,
     /// Patterns of contact sides that were tried for rest.
     pub rest_patterns: usize,
     /// States of joints and contact sides that were tried for release.
@@ -113,11 +115,6 @@ impl HoldReport {
         let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
         let of_friction = self.friction.as_ref().map_or(0, |friction| friction.threshold.undecided);
         self.holds || self.undecided == of_load + of_wedging + of_friction
-    }
-
-    /// The greatest magnitude of the reactions at rest (N or N m); 0 if it cannot rest.
-    pub(super) fn greatest_at_rest(&self) -> f64 {
-        self.at_rest.as_ref().map_or(0.0, |rest| greatest(&rest.reactions.ranges()))
     }
 
     /// The normal forces at rest, or where it begins to move.
