@@ -401,7 +401,11 @@ pub(crate) fn quantity(value: f64, unit: &Unit) -> String {
 /// Two SI values in a unit: "716.2 to 791.5 N", "716.2 N" where they do not differ.
 fn between(ends: [f64; 2], unit: &Unit) -> String {
     let [least, greatest] = ends.map(|end| number(unit.number_of(end)));
-    if least == greatest { quantity(ends[0], unit) } else { format!("{least} to {}", quantity(ends[1], unit)) }
+    if least == greatest {
+        quantity(ends[0], unit)
+    } else {
+        format!("{least} to {}", quantity(ends[1], unit))
+    }
 }
 
 /// The signs of a pattern one by one, with true minus signs.

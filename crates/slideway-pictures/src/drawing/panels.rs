@@ -19,7 +19,8 @@ pub(super) const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
 /// Half widths of ranges below this have no length in a drawing (drawing units).
 const NOTHING: f64 = 1e-6;
 /// Remark on forces of which only ranges are known.
-const RANGES: &str = "Arrows are in the middle of their ranges: which forces it has depends on how it came to rest.";
+const RANGES: &str =
+    "Arrows are in the middle of their ranges: which forces it has depends on how it came to rest.";
 
 /// Remark on a picture whose guides are drawn with a play that can be seen instead of their own.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";

@@ -119,7 +119,10 @@ impl Report for MapReport {
         };
         let mut sentences: Vec<String> = classes.iter().enumerate().take(NAMED).map(one).collect();
         if classes.len() > NAMED {
-            sentences.push(format!("{} more classes.", classes.len() - NAMED));
+            sentences.push(match classes.len() - NAMED {
+                1 => "One more class.".to_owned(),
+                more => format!("{more} more classes."),
+            });
         }
         sentences.join(" ")
     }

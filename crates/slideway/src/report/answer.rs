@@ -12,6 +12,8 @@ pub(crate) const AT_THE_MIDDLE: &str =
     "parameters known within bounds are taken at the middle of their ranges";
 /// Of a block that keeps one corner on its face.
 pub(crate) const TIPS: &str = "it tips";
+/// Of a corner or block that leaves its face.
+pub(crate) const OPENS: &str = "opens";
 /// Of a state that stays at rest.
 pub(crate) const HOLDS: &str = "it holds";
 /// The remedy where a search ended early.

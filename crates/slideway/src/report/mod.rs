@@ -24,7 +24,7 @@ mod wrap;
 
 pub(crate) use crate::units::number;
 pub use crate::units::precise;
-pub(crate) use answer::{AT_THE_MIDDLE, HOLDS, TIPS};
+pub(crate) use answer::{AT_THE_MIDDLE, HOLDS, OPENS, TIPS};
 pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};

@@ -144,7 +144,12 @@ impl MarginQuestion<'_> {
     }
 
     /// The factor of static friction from which on a load is held, however great, or all loads as they are: where the guides are wedged, or certainly.
-    fn threshold(&self, asked: (Option<&str>, bool), value: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
+    fn threshold(
+        &self,
+        asked: (Option<&str>, bool),
+        value: f64,
+        work: Work<'_>,
+    ) -> Result<Option<f64>, Faults> {
         let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?, asked, work)?;
         if undecided > 0 {
             let what = asked.0.unwrap_or("it").to_owned();

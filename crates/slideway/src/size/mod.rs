@@ -107,7 +107,11 @@ impl Choice for FrictionMargin {
     const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Locking, "locking", "Locking in motion"),
         (Self::SelfLocking, "self-locking", "Self-locking at rest under the load"),
-        (Self::Hold, "hold", "Slipping at rest: the loads must be held, or with --load one however great it is"),
+        (
+            Self::Hold,
+            "hold",
+            "Slipping at rest: the loads must be held, or with --load one however great it is",
+        ),
     ];
 }
 

@@ -3,7 +3,8 @@
 use super::TOLERANCE;
 use super::ranges::{greatest, words};
 use super::report::{
-    CoordinateRange, FrictionNeeded, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release, Threshold, Wedging,
+    CoordinateRange, FrictionNeeded, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release,
+    Threshold, Wedging,
 };
 use crate::units::number::brief;
 

@@ -60,7 +60,8 @@ mod words;
 
 pub use report::{
     AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, FrictionNeeded,
-    GapRange, HingeRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Wedging,
+    GapRange, HingeRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release,
+    SCHEMA, Threshold, Wedging,
 };
 
 use crate::configuration::{motions_without_inertia, unit};
@@ -168,7 +169,8 @@ pub(crate) fn hold_within(
     let part = |index| work.part(index, 2 + loads + sharings);
     let (rest, is_held) = rest::at_rest(&setup, nominal, part(0));
     let load = load_report(model, options, &setup, part(1))?;
-    let friction = if setup.load.is_none() { friction_needed(model, options, &setup, part(0))? } else { None };
+    let friction =
+        if setup.load.is_none() { friction_needed(model, options, &setup, part(0))? } else { None };
     let wedging = threshold::wedging(model, options, &setup, part(1 + loads))?;
     let beginning = Beginning::new(&setup, is_held, part(1 + loads + sharings));
     let original = Mechanism::new(model)?;

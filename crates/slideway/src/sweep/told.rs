@@ -92,11 +92,8 @@ impl Telling<'_> {
             &state.pattern,
             RowHead {
                 kind,
-                negative_determinant: matches!(
-                    kind,
-                    RowKind::Solution | RowKind::PreloadGap | RowKind::Rest
-                )
-                .then_some(state.determinant < 0.0),
+                negative_determinant: matches!(kind, RowKind::Solution | RowKind::PreloadGap | RowKind::Rest)
+                    .then_some(state.determinant < 0.0),
                 verdict: if self.plan.attainability {
                     state.attainability.verdict
                 } else {

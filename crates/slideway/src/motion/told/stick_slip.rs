@@ -47,8 +47,8 @@ fn slips(history: &History, (joint, id): (usize, JointId)) -> Vec<f64> {
     if !is_one_way || signs.all(|sign| sign == 0.0) {
         return Vec::new();
     }
-    let slips = lasting.windows(2).filter(|pair| {
-        state(pair[0]) == JointPhase::Sticking && state(pair[1]) != JointPhase::Sticking
-    });
+    let slips = lasting
+        .windows(2)
+        .filter(|pair| state(pair[0]) == JointPhase::Sticking && state(pair[1]) != JointPhase::Sticking);
     slips.map(|pair| pair[1].from).collect()
 }
