@@ -162,7 +162,10 @@ fn hold_answers() {
             held(SLOPE, &[("angle", "20 deg")], Some("weight")),
             "It does not hold: it starts to slide (s: -1.541 m/s^2). It holds no `weight`, however small. It would be self-locking from mu_static = 0.364 (now 0.3).",
         ),
-        (held("bracket-on-pole", &[], None), "It holds only just: with any less friction it slips."),
+        (
+            held("bracket-on-pole", &[], None),
+            "It holds only just, from mu_static = 0.25, its present value: with any less it slips.",
+        ),
         (
             held("bracket-on-pole", &[], Some("W")),
             "Just self-locking: it holds any `W` from mu_static = 0.25, its present value; with any less it slips.",

@@ -15,7 +15,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::standstill::{HoldOptions, HoldReport, hold_with, only_load};
+use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours};
 use slideway_pictures::drawing::{Sheet, Shown, sheet, sheet_at_rest};
@@ -80,11 +80,9 @@ fn solutions(
     }
 }
 
-/// What has no answer in motion may have one at rest: whether it holds, and its only load up to which size.
+/// What has no answer in motion may have one at rest: whether it holds.
 fn held(model: &Model, watch: &mut Watch) -> Option<HoldReport> {
-    let mut options = HoldOptions::default();
-    options.load = only_load(model).ok();
-    hold_with(model, &options, &mut |progress| watch.look(progress)).ok().flatten()
+    hold_with(model, &HoldOptions::default(), &mut |progress| watch.look(progress)).ok().flatten()
 }
 
 fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {

@@ -79,6 +79,9 @@ fn needed(verdict: HoldVerdict, friction: &FrictionNeeded) -> Option<Needed> {
             let factor = brief(known.present / certain);
             Some(Needed::Clause(match factor.as_str() {
                 _ if certain == 0.0 => "even without friction".to_owned(),
+                "1" if known.parameter.is_some() => {
+                    format!("only just, {}: with any less it slips", from(known, certain))
+                }
                 "1" => "only just: with any less friction it slips".to_owned(),
                 factor => format!("with a safety factor of {factor}"),
             }))
