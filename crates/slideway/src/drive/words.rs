@@ -170,7 +170,8 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
 /// " foot lifts off.", of joints that open.
 fn lifts(only: &DriveSolution) -> String {
     let opens = only.joints.iter().filter(|joint| joint.mode == OPENS);
-    opens.map(|joint| format!(" {} lifts off.", joint.name)).collect()
+    let words: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
+    words.concat()
 }
 
 /// "2 states are possible: push needs 9.091 N, or -100 N (unstable)."

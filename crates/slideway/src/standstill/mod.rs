@@ -375,7 +375,8 @@ fn load_report(
     }))
 }
 
-/// The static friction that the loads need as they are; none if there is no static friction that could hold anything.
+/// The static friction that the loads need as they are; none if there is no static friction that could hold anything, or some
+/// in hinges.
 ///
 /// # Errors
 /// As [`hold`].
@@ -386,8 +387,7 @@ fn friction_needed(
     work: Work<'_>,
 ) -> Result<Option<FrictionNeeded>, Faults> {
     let rubs = |contact: &Contact| contact.mu_static.iter().any(|mu| *mu > 0.0);
-    let hinges = setup.mechanism.rough_hinges().next().is_some();
-    if !hinges && !setup.mechanism.contacts.iter().any(rubs) {
+    if setup.mechanism.rough_hinges().next().is_some() || !setup.mechanism.contacts.iter().any(rubs) {
         return Ok(None);
     }
     let (threshold, certain_from) = threshold::threshold(model, options, setup, work)?;

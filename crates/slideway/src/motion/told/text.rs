@@ -140,7 +140,7 @@ impl Page<'_, SimulateReport> {
             let rate = beside(coordinate.rate, greatest);
             let size = if coordinate.unit == "m" { self.report.model.size } else { 1.0 };
             let value = beside(coordinate.value, size);
-            crate::report::CoordinateState { rate, value, ..coordinate.clone() }
+            crate::report::CoordinateState { value, rate, ..coordinate.clone() }
                 .in_words(&self.report.model.units)
         };
         let parts: Vec<String> = state.iter().map(one).collect();
