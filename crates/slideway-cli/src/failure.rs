@@ -23,7 +23,7 @@ const OVERWRITE: &str = "choose another name, or overwrite it with --force";
 #[derive(Debug)]
 pub(crate) enum Failure {
     /// There is no such model file.
-    NotFound { path: PathBuf, gallery_name: Option<&'static str> },
+    NotFound { path: PathBuf, nearest: Option<String>, gallery_name: Option<&'static str> },
     /// The path is a directory.
     IsDirectory { path: PathBuf },
     /// The model file cannot be read.
@@ -39,7 +39,7 @@ pub(crate) enum Failure {
     /// No template is named, and nobody can be asked.
     NoTemplate,
     /// There is no such template.
-    UnknownTemplate { name: String, nearest: Option<String> },
+    UnknownTemplate { name: String, nearest: Option<String>, model: Option<&'static str> },
     /// No quantity is named that is to be varied, by this option.
     NothingVaried { option: &'static str, variables: Vec<Variable> },
     /// Standard output cannot be opened.
@@ -231,9 +231,6 @@ impl Failure {
             Self::NotFound { gallery_name: Some(name), .. } => Some(format!(
                 "`{name}` is a model of the gallery: `slideway models {name} > {name}.toml` writes it to a file"
             )),
-            Self::NotFound { gallery_name: None, .. } => {
-                Some("`slideway models` lists models to start from".to_owned())
-            }
             Self::NoProblem { .. } => {
                 Some("`slideway modes --help` shows what a problem looks like".to_owned())
             }
@@ -260,16 +257,21 @@ impl Failure {
             }
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
+            Self::UnknownTemplate { model: Some(model), .. } => Some(format!(
+                "`{model}` is a model of the gallery: `slideway models {model} > {model}.toml` writes it to a file"
+            )),
+            Self::NotFound { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
             Self::UnknownModel { nearest: Some(nearest), .. }
             | Self::UnknownTemplate { nearest: Some(nearest), .. } => {
                 Some(format!("did you mean `{nearest}`?"))
             }
-            Self::NoTemplate | Self::UnknownTemplate { nearest: None, .. } => {
+            Self::NoTemplate | Self::UnknownTemplate { .. } => {
                 Some("`slideway new NAME` writes one of these".to_owned())
             }
             Self::NothingVaried { option, .. } => {
                 Some(format!("name one of these with `{option}`; they have these values now"))
             }
+            Self::NotFound { .. } => Some("`slideway models` lists models to start from".to_owned()),
             Self::NothingToOpen => Some("name it with --output, or omit --output".to_owned()),
             Self::CannotOpen { program, .. } => Some(format!("the program `{program}` would do it")),
             Self::UnknownModel { nearest: None, .. } => Some("`slideway models` lists them".to_owned()),

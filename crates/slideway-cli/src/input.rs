@@ -6,13 +6,13 @@ use crate::failure::Failure;
 use crate::faulty_input::FaultyInput;
 use crate::output::complain;
 use anstream::ColorChoice;
-use slideway::fault::{Doubt, Fault, FaultKind, Faults};
+use slideway::fault::{Doubt, Fault, FaultKind, Faults, nearest};
 use slideway::gallery;
 use slideway::limits::{Vary, variables};
 use slideway::model::{Model, SIZE_LIMIT, Setting, Settings};
 use slideway::units::UnitSystem;
 use slideway::warning::{ranges_at_middle, warnings};
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -251,11 +251,24 @@ pub(crate) fn open(path: &Path) -> Result<(Box<dyn Read>, u64), Failure> {
 pub(crate) fn cannot_read(path: &Path, error: io::Error) -> Failure {
     match error.kind() {
         io::ErrorKind::NotFound => {
-            Failure::NotFound { path: path.to_owned(), gallery_name: gallery_name(path) }
+            let (nearest, gallery_name) = (nearest_file(path), gallery_name(path));
+            Failure::NotFound { path: path.to_owned(), nearest, gallery_name }
         }
         io::ErrorKind::IsADirectory => Failure::IsDirectory { path: path.to_owned() },
         _ => Failure::CannotRead { path: path.to_owned(), error },
     }
+}
+
+/// The file of the same kind in the same folder whose name is most like that of one that does not exist.
+fn nearest_file(path: &Path) -> Option<String> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?.flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let mut alike: Vec<String> =
+        names.filter(|name| Path::new(name).extension() == path.extension()).collect();
+    alike.sort();
+    let name = nearest(path.file_name()?.to_str()?, alike.iter().map(String::as_str))?;
+    Some(path.with_file_name(name).display().to_string())
 }
 
 /// The model of the gallery that was meant by the path of a file that does not exist.

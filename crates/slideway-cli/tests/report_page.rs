@@ -86,7 +86,7 @@ fn efficiency_margins_and_rest_are_on_the_page() {
         "<h3>Efforts and efficiency</h3>",
         "efficiency 55 %",
         "It would jam from mu = 0.6667 (2.222 times this friction).",
-        "<p>Without the drive push</p>\n<p>It does not hold: it starts to slide (x: -4 m/s^2).</p>",
+        "<p>Without the drive push</p>\n<p>It does not hold: it starts to slide (x: -4 m/s^2). More friction would not hold it.</p>",
     ] {
         assert!(html.contains(part), "{part}");
     }

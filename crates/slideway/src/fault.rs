@@ -543,8 +543,8 @@ pub enum FaultKind {
     LoadUnused { load: String },
     #[error("the limit is in {typed}, which does not fit the drives")]
     LimitUnit { typed: String, wanted: &'static str },
-    #[error("whether {load} is held could not be decided")]
-    UndecidedAtRest { load: String },
+    #[error("whether {what} is held could not be decided")]
+    UndecidedAtRest { what: String },
     #[error("the limits of {modes} contact modes could not be computed")]
     LimitsNotComputed { modes: usize },
     #[error("a guided slider is between its faces, and how its state changes with friction is not followed")]
@@ -615,6 +615,9 @@ impl FaultKind {
         match self {
             Self::Expression(kind) | Self::WithoutValue { kind, .. } => kind.hint().or_else(|| expression_hint(kind)),
             Self::Axis { problem, .. } => problem.hint_for(face),
+            Self::NoneOf { one_of, .. } if one_of.contains(&"massless") => Some(
+                "write `mass = \"4 kg\"`, or `massless = true` if its weight and inertia do not matter".to_owned(),
+            ),
             Self::Doubt(doubt) => Some(doubt.hint_for(face)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)

@@ -143,12 +143,16 @@ const SLOPE: &str = r#"
 fn hold_answers() {
     let wedged = [("mu", "0.7"), ("mu_s", "0.7"), ("cord_force", "0 N")];
     let told = [
-        (held("klepp-2002", &[], None), "It holds."),
-        (held("drawer", &[], None), "It does not hold: it starts to slide (x: -4 m/s^2)."),
+        (held("klepp-2002", &[], None), "It holds even without friction."),
+        (
+            held("drawer", &[], None),
+            "It does not hold: it starts to slide (x: -4 m/s^2). More friction would not hold it.",
+        ),
         (held("bell-crank", &[], None), "It does not hold."),
         (
             held(SLOPE, &[], None),
-            "It holds. Once pushed it keeps sliding: kinetic friction is lower than static.",
+            // 0.3 / tan(13 deg)
+            "It holds with a safety factor of 1.299. Once pushed it keeps sliding: kinetic friction is lower than static.",
         ),
         (
             held(SLOPE, &[], Some("weight")),
@@ -158,7 +162,10 @@ fn hold_answers() {
             held(SLOPE, &[("angle", "20 deg")], Some("weight")),
             "It does not hold: it starts to slide (s: -1.541 m/s^2). It holds no `weight`, however small. It would be self-locking from mu_static = 0.364 (now 0.3).",
         ),
-        (held("bracket-on-pole", &[], None), "It holds."),
+        (
+            held("bracket-on-pole", &[], None),
+            "It holds only just, from mu_static = 0.25, its present value: with any less it slips.",
+        ),
         (
             held("bracket-on-pole", &[], Some("W")),
             "Just self-locking: it holds any `W` from mu_static = 0.25, its present value; with any less it slips.",
@@ -199,7 +206,10 @@ fn hold_answers() {
             held("telescopic-boom", &[], Some("cylinder_1")),
             "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. If it were wedged it would hold any `cylinder_1` from mu = 4 (now 0.1). By itself `cylinder_1` need not wedge it: do not rely on it.",
         ),
-        (held("telescopic-boom", &[], None), "It does not hold: it starts to slide (s_3: 1.318 m/s^2)."),
+        (
+            held("telescopic-boom", &[], None),
+            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It would hold from mu = 0.1128 (now 0.1).",
+        ),
     ];
     assert_answers(&told);
 }
@@ -279,6 +289,11 @@ fn simulate_answers() {
         (simulated(&block(&[]), &options(0.5)), "It is still moving at 0.5 s."),
         (simulated(&block(&[("v", "0 m/s")]), &options(0.5)), "It stays at rest until 0.5 s."),
         (simulated(&model("stick-slip", &[]), &options(0.5)), "It is still moving at 0.5 s."),
+        // 2 s/v + 2/w (pi - atan(s w/v)) with s = (mu_static - mu) g/w^2, w^2 = k/m
+        (
+            simulated(&model("stick-slip", &[]), &options(3.0)),
+            "Stick-slip: block slips 5 times, every 0.6486 s. It is still moving at 3 s.",
+        ),
         (
             simulated(&model("thrown-drawer", &[]), &options(0.6)),
             "It jams at 0.3692 s and stays at rest until 0.6 s.",

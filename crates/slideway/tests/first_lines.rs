@@ -46,6 +46,9 @@ enum Outcome {
     Tip,
     Jam,
     SlowsDown,
+    /// It stays at rest on contacts that may lift off.
+    Rests,
+    LiftsOff,
     Undecided,
     Interrupted,
 }
@@ -61,13 +64,15 @@ enum First {
 }
 
 use First::{Line, Never, NoReport};
-use Outcome::{Gap, Interrupted, Jam, Nothing, One, Several, SlowsDown, Tip, Undecided, Undetermined};
+use Outcome::{
+    Gap, Interrupted, Jam, LiftsOff, Nothing, One, Rests, Several, SlowsDown, Tip, Undecided, Undetermined,
+};
 use Question::{Check, Drive, Hold, Limits, Map, Modes, Simulate, Size, Solve};
 
 const QUESTIONS: [Question; 10] =
     [Solve, Limits, Size, Drive, Hold, Map, Question::Sweep, Simulate, Check, Modes];
-const OUTCOMES: [Outcome; 10] =
-    [One, Nothing, Several, Undetermined, Gap, Tip, Jam, SlowsDown, Undecided, Interrupted];
+const OUTCOMES: [Outcome; 12] =
+    [One, Nothing, Several, Undetermined, Gap, Tip, Jam, SlowsDown, Rests, LiftsOff, Undecided, Interrupted];
 
 const EQUAL_PLAY: &str = include_str!("findings/equal_play.toml");
 const TIPPING_PRESS: &str = include_str!("findings/tipping_press.toml");
@@ -153,6 +158,11 @@ fn of_solve(outcome: Outcome) -> First {
         Tip => Line(solved(TIPPING_PRESS, &[("mu", "1.3")]), "No answer: bed tips"),
         Jam => Line(solved("drawer", &[("mu", "0.7")]), "It jams: no force of push moves it. "),
         SlowsDown => Line(solved(PEG, &[]), "It slows down at "),
+        Rests => Line(solved("ladder", &[]), "It holds. The contacts at rest leave their forces open: "),
+        LiftsOff => Line(
+            solved("box-on-incline", &[]),
+            "It slows down at 5.444 m/s^2 and tips: base.front lifts off.",
+        ),
         Undecided => Line(solved("drawer", &VERGE), "Not decided: it is on the verge of jamming, "),
         Interrupted => {
             let mut stop = |_: &_| ControlFlow::Break(());
@@ -181,6 +191,11 @@ fn of_limits(outcome: Outcome) -> First {
         SlowsDown => {
             Line(limited(PEG, &[], "mu=0.3..0.5"), "mu from 0.3 to 0.5: it slows down (one solution). ")
         }
+        Rests => Line(limited("ladder", &[], "climbed=0..0.5"), "climbed from 0 to 0.5: it holds (sampled)."),
+        LiftsOff => Line(
+            limited("cam-and-spring", &[], "speed=10 rad/s..60 rad/s"),
+            "It moves for speed from 10 to 60 rad/s. foot lifts off from speed = 43.88 rad/s on.",
+        ),
         Undecided => Line(limited("drawer", &VERGE, "Q=1 N..30 N"), "Q from 1 to 30 N: not decided."),
         Interrupted => {
             let options = LimitsOptions::new(Vary::between("mu", 0.0, 1.0));
@@ -203,7 +218,7 @@ fn of_size(outcome: Outcome) -> First {
         Nothing => {
             // At rest: the bracket holds from x = B / (2 mu_static) = 304.8 mm on.
             let options = SizeOptions::new("x=1 mm..400 mm".parse::<Vary>().unwrap(), 1.0)
-                .against(Against::Hold { load: "W".to_owned() });
+                .against(Against::Hold { load: Some("W".to_owned()) });
             Line(
                 size(&model("bracket-on-pole", &[]), &options).unwrap().answer(),
                 "To hold the load `W`, however great, with a safety factor of 1: x at least 304.8 mm",
@@ -232,6 +247,21 @@ fn of_size(outcome: Outcome) -> First {
         SlowsDown => Line(
             sized(PEG, &[], "mu=0.3..0.5"),
             "For a safety factor of 1.5 against jamming: mu can have any value from 0.3 to 0.5. ",
+        ),
+        Rests => {
+            // With 1/3 at the floor and 0.2 at the wall: (middle of the weights) = (1/3)/(1 + 0.2/3) (tan 60 deg + 0.2) = 0.603766,
+            // which is 1/2 + 8/9 (climbed - 1/2).
+            let options = SizeOptions::new("climbed=0..1".parse::<Vary>().unwrap(), 1.5)
+                .against(Against::Hold { load: None });
+            Line(
+                size(&model("ladder", &[]), &options).unwrap().answer(),
+                "To hold with a safety factor of 1.5: climbed at most 0.616737 (examined down to 0). The model has \
+                 climbed = 0.5: it holds with a safety factor of 1.815, which is enough.",
+            )
+        }
+        LiftsOff => Line(
+            sized("box-on-incline", &[], "mu=0.1..2"),
+            "For a safety factor of 1.5 against jamming: mu at most 0.888889 (examined down to 0.1). ",
         ),
         Undecided => Line(
             sized("drawer", &VERGE, "Q=1 N..30 N"),
@@ -267,6 +297,11 @@ fn of_drive(outcome: Outcome) -> First {
         }
         Tip => Line(driven(TIPPING_PRESS, &[("mu", "1.3")]), "bed tips; model it as a block slider to see "),
         SlowsDown => Never("a drive prescribes the motion"),
+        Rests => Never("a drive that holds what it carries: of what rests by itself `hold` is asked"),
+        LiftsOff => Line(
+            driven("cam-and-spring", &[("speed", "50 rad/s")]),
+            "motor needs 0 N m: nothing resists it. foot lifts off. ",
+        ),
         Undecided => Line(
             driven("drawer", &VERGE),
             "It is not decided whether it moves: it is on the verge of jamming. ",
@@ -281,7 +316,7 @@ fn of_drive(outcome: Outcome) -> First {
 
 fn of_hold(outcome: Outcome) -> First {
     match outcome {
-        One => Line(held("klepp-2002", &[]), "It holds."),
+        One => Line(held("klepp-2002", &[]), "It holds even without friction."),
         Nothing => Line(
             held(include_str!("../../../docs/src/examples/guided-tips.toml"), &[]),
             "It can neither stay at rest nor start to slide with finite accelerations.",
@@ -294,10 +329,19 @@ fn of_hold(outcome: Outcome) -> First {
             "It may hold, or it may start to slide: do not rely on it.",
         ),
         Undetermined => Never("reactions at rest are ranges below the answer, which they do not change"),
-        Gap => Line(held(GUIDED_GAP, &[("P", "0 N"), ("M", "0 N m")]), "It holds."),
+        Gap => Line(held(GUIDED_GAP, &[("P", "0 N"), ("M", "0 N m")]), "It holds"),
         Tip => Never("a guided slider that would tip neither rests nor slides: see above"),
         Jam => Never("what rests does not jam: it holds"),
-        SlowsDown => Line(held("drawer", &[]), "It does not hold: it starts to slide (x: -4 m/s^2)."),
+        SlowsDown => Line(
+            held("drawer", &[]),
+            "It does not hold: it starts to slide (x: -4 m/s^2). More friction would not hold it.",
+        ),
+        // 1 over the least factor f of friction: f/2/(1 + 0.15 f^2) (tan 60 deg + 0.3 f) = 1/2, f = 0.55105.
+        Rests => Line(held("ladder", &[]), "It holds with a safety factor of 1.815."),
+        LiftsOff => Line(
+            held("box-on-incline", &[("slope", "30 deg")]),
+            "It does not hold: it tips over base.rear. More friction would not hold it.",
+        ),
         Undecided => Never("a linear program that is not solved: seen by the tests of the module"),
         Interrupted => {
             let model = model("drawer", &[]);
@@ -328,7 +372,11 @@ fn of_map(outcome: Outcome) -> First {
             mapped(TIPPING_PRESS, &[], ["mu=1.26..1.3", "Q=1 N..2 N"]),
             "100 % of the map: no solution, a guided slider tips (model it as a block slider).",
         ),
-        SlowsDown => Never("a map counts solutions; coloured by motion it says what becomes of the speed"),
+        SlowsDown => Never("a map counts solutions; coloured by motion it says what becomes of the motion"),
+        Rests => {
+            Line(mapped("ladder", &[], ["climbed=0..0.5", "lean=50 deg..70 deg"]), "100 % of the map: holds.")
+        }
+        LiftsOff => Never("a map counts solutions"),
         Undecided => Line(
             mapped("drawer", &VERGE, ["m=1 kg..2 kg", "Q=1 N..30 N"]),
             "100 % of the map: not decided, it is on the verge of jamming; take it as jammed.",
@@ -359,7 +407,8 @@ fn of_sweep(outcome: Outcome) -> First {
             "A guided slider tips at 13 of 25 points. Model it as a block slider ",
         ),
         Jam => Line(swept("drawer", &[], "mu=0..1:101", false), "It jams at 34 of 101 points."),
-        SlowsDown => Never("a sweep counts jams; accelerations are columns of its table"),
+        SlowsDown | LiftsOff => Never("a sweep counts jams; accelerations are columns of its table"),
+        Rests => Line(swept("ladder", &[], "climbed=0..1:5", false), "It holds at 4 of 5 points."),
         Undecided => Line(
             swept("drawer", &VERGE, "Q=1 N..30 N:4", false),
             "It jams at none of 4 points. 4 of them are not decided.",
@@ -398,6 +447,10 @@ fn of_simulate(outcome: Outcome) -> First {
             Line(simulated("thrown-drawer", &[], 0.6), "It jams at 0.3692 s and stays at rest until 0.6 s.")
         }
         SlowsDown => Line(simulated(PEG, &[], 2.0), "It comes to rest at "),
+        Rests => Line(simulated("ladder", &[], 0.1), "It stays at rest until 0.1 s."),
+        LiftsOff => {
+            Line(simulated("rod-on-floor", &[], 1.0), "It comes to rest at 0.1994 s and stays so until 1 s.")
+        }
         Undecided => Line(simulated("drawer", &VERGE, 0.1), "It jams at once, at 0 s: "),
         Interrupted => {
             let model = model("klepp-2002-spring", &[]);
@@ -425,7 +478,9 @@ fn of_check(outcome: Outcome) -> First {
             checked(EQUAL_PLAY, &[]),
             "Ready for: solve, limits, size, sweep, map, drive, hold. Not for simulate: see below.",
         ),
-        Several | Gap | Tip | Jam | SlowsDown | Undecided => Never("that is for the questions to find"),
+        Several | Gap | Tip | Jam | SlowsDown | Rests | LiftsOff | Undecided => {
+            Never("that is for the questions to find")
+        }
         Interrupted => {
             NoReport(check_with(&model("drawer", &[]), &mut |_| ControlFlow::Break(())).unwrap().is_none())
         }
@@ -446,7 +501,7 @@ fn of_modes(outcome: Outcome) -> First {
             found(include_str!("../../slideway-cli/tests/raw/good/gap.json"), &all, false),
             "No solution, but there is a state with an unknown in its preload gap.",
         ),
-        Tip | Jam | SlowsDown => Never("matrices have no mechanism"),
+        Tip | Jam | SlowsDown | Rests | LiftsOff => Never("matrices have no mechanism"),
         Undecided => Line(
             found(&lcp("[[-1, 0.5], [0.5, -1]]", "[1, 1]"), &SearchOptions { nodes: 1, ..all }, false),
             "One solution found so far.",

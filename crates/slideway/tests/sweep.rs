@@ -74,7 +74,8 @@ fn check_without_state(rows: &Rows, found: &[usize], report: &SolveReport) {
             [] => vec![None],
             corners => corners.iter().map(|corner| Some(&corner[..])).collect(),
         };
-        corners.into_iter().map(|corner| (RowKind::Continuum, continuum.pattern.as_bytes(), corner))
+        let kind = if continuum.rests { RowKind::RestRange } else { RowKind::Continuum };
+        corners.into_iter().map(move |corner| (kind, continuum.pattern.as_bytes(), corner))
     });
     let undecided = report.undecided_modes.iter();
     let undecided = undecided.map(|mode| (RowKind::Undecided, mode.pattern.as_bytes(), None));
@@ -107,9 +108,9 @@ fn check_point(sweep: &Sweep, rows: &Rows, range: std::ops::Range<usize>, report
     let of = |kinds: &[RowKind]| {
         range.clone().filter(|&row| kinds.contains(&rows.heads[row].kind)).collect::<Vec<usize>>()
     };
-    let found = of(&[RowKind::Solution, RowKind::Boundary, RowKind::PreloadGap]);
+    let found = of(&[RowKind::Solution, RowKind::Boundary, RowKind::PreloadGap, RowKind::Rest]);
     assert_eq!(found.len(), states.len());
-    check_without_state(rows, &of(&[RowKind::Continuum, RowKind::Undecided]), report);
+    check_without_state(rows, &of(&[RowKind::Continuum, RowKind::RestRange, RowKind::Undecided]), report);
     for (row, state) in found.into_iter().zip(states) {
         assert_eq!(rows.pattern(row), state.pattern.as_bytes());
         let forces = state.contacts.iter().map(|contact| contact.normal_force.abs());

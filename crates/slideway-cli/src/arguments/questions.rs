@@ -14,7 +14,9 @@ What does this load do?            solve; simulate
 Does it start?                     hold --load push
 Does it hold?                      hold; hold --vary mu_static=0..0.5
     Statics: neither masses nor drives are needed. For two quantities:
-    map --colour-by hold
+    map --colour-by hold. For a safety factor: size --against hold --margin 1.5
+Does it tip, or lift off?          hold; solve; map --colour-by motion
+    Joints of the types corner_on_face, block_on_face and disc_on_face may open.
 Is it self-locking?                hold --load W --vary mu_static
     The name gravity stands for all weights.
 How much force does it need?       drive

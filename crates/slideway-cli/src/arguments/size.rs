@@ -18,7 +18,9 @@ Examples:
   slideway size drawer.toml --vary L --max-effort 30N
   slideway size drawer.toml --vary L --min-efficiency 70%
   slideway size drawer.toml --vary L --max-normal-force 25N
-  slideway size bracket-on-pole.toml --vary x --margin 1.5 --against hold
+  slideway size ladder.toml --vary climbed --margin 1.2 --against hold
+  slideway size bracket-on-pole.toml --vary x --margin 1.5 --load W \
+    --against hold
   slideway size cam-follower.toml --vary phi --margin 2 --load cam \\
     --against self-locking
 
@@ -27,8 +29,9 @@ The margin is a factor on friction. Its meaning depends on --against:
                 motion is possible
   self-locking  for what must come loose: static friction may grow by it before
                 the load is held however great it is
-  hold          for what must hold, as a clamp or a bracket: static friction may
-                be divided by it while the load is held however great it is
+  hold          for what must hold, as a clamp or a ladder: static friction may
+                be divided by it while all loads are held as they are, or with
+                --load while this one is held however great it is
 The load of a margin at rest can be the effort of a drive. --max-pressure needs
 a `pad`, the area in contact, at the sliding joints of the model.
 
@@ -66,7 +69,7 @@ pub(crate) struct SizeArguments {
     #[arg(long, default_value = FrictionMargin::default().word(), value_parser = choice::<FrictionMargin>())]
     against: FrictionMargin,
 
-    /// What a margin or limit concerns: the load of a margin at rest (by default the only one), the drive of
+    /// What a margin or limit concerns: the load of a margin at rest (of self-locking by default the only one), the drive of
     /// --max-effort, or the contact of --max-normal-force or --max-pressure (by default all of them).
     #[arg(long, value_name = "NAME")]
     load: Option<String>,

@@ -15,10 +15,10 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::standstill::{HoldOptions, HoldReport, hold_with, only_load};
+use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours};
-use slideway_pictures::drawing::{Sheet, Shown, sheet};
+use slideway_pictures::drawing::{Sheet, Shown, sheet, sheet_at_rest};
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -44,15 +44,17 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         Some(Which::None) => Shown::Mechanism,
         Some(Which::Number(number)) => Shown::Solution(number),
     };
-    let Some(sheet) = sheet(&mechanism, &configuration, report.as_ref(), shown) else {
+    // What rests has forces, too, though it has no solution in motion.
+    let at_rest = rest.as_ref().map(|rest| sheet_at_rest(&mechanism, &configuration, rest));
+    let Some(sheet) = at_rest.or_else(|| sheet(&mechanism, &configuration, report.as_ref(), shown)) else {
         if let Some(halt) = halt {
             return Err(Failure::Halted { halt, path: None });
         }
         let count = report.map_or(0, |report| report.solutions.len());
         return Err(Failure::NoSuchSolution { count });
     };
-    let sheet = rest.iter().fold(sheet, Sheet::at_rest);
-    let sheet = refused.iter().fold(sheet, Sheet::unsolved);
+    let has_forces = rest.is_some_and(|rest| rest.at_rest.is_some());
+    let sheet = refused.iter().filter(|_| !has_forces).fold(sheet, Sheet::unsolved);
     let sheet = sheet.changed_by(&input.settings);
     let sharpness = arguments.width.map_or(SHARPNESS, |width| width / sheet.bounds.size().x);
     let width = arguments.width.filter(|_| picture == Picture::Svg);
@@ -78,11 +80,9 @@ fn solutions(
     }
 }
 
-/// What has no answer in motion may have one at rest: whether it holds, and its only load up to which size.
+/// What has no answer in motion may have one at rest: whether it holds.
 fn held(model: &Model, watch: &mut Watch) -> Option<HoldReport> {
-    let mut options = HoldOptions::default();
-    options.load = only_load(model).ok();
-    hold_with(model, &options, &mut |progress| watch.look(progress)).ok().flatten()
+    hold_with(model, &HoldOptions::default(), &mut |progress| watch.look(progress)).ok().flatten()
 }
 
 fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {

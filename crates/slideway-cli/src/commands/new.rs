@@ -12,6 +12,7 @@ use crate::outcome::Outcome;
 use crate::output::Output;
 use clap::Parser;
 use slideway::fault::{Faults, nearest};
+use slideway::gallery::{self, GalleryModel, MODELS};
 use slideway::model::Settings;
 use slideway::printable;
 use slideway::template::{FILE, TEMPLATES, Template};
@@ -33,7 +34,10 @@ pub(crate) fn new(arguments: &NewArguments, output: &Output) -> Result<Outcome, 
     }
     if let Some(name) = arguments.unknown.clone() {
         let nearest = nearest(&name, TEMPLATES.iter().map(|template| template.name));
-        return Err(Failure::UnknownTemplate { name, nearest });
+        let begins = |model: &&GalleryModel| model.name.split('-').next() == Some(name.as_str());
+        let named = gallery::find(&name).or_else(|| MODELS.iter().find(begins));
+        let model = named.map(|model| model.name);
+        return Err(Failure::UnknownTemplate { name, nearest, model });
     }
     let asks = io::stdin().is_terminal() && io::stdout().is_terminal();
     let template = match arguments.template {

@@ -5,7 +5,7 @@ use super::looks::Look;
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
 use super::slide::Slide;
-use super::{ContactForces, Painter};
+use super::{ContactForces, Painter, between};
 use slideway::ids::{ContactId, Frame, JointId};
 use slideway::mechanism::{Attachment, Mechanism};
 use slideway::model::SliderKind;
@@ -81,8 +81,14 @@ impl Painter<'_> {
         let length = forces.normal.abs() * scale;
         // It presses from outside what it acts on if that is the inner part, else from inside.
         let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
-        let text = self.shown(forces.normal.abs(), "N");
+        let text = self.size_of_force(forces.normal, forces.spread[0]);
         self.arrow_of_force(Class::Reaction, (face, is_on_inner), direction * length, text);
+    }
+
+    /// The size of a force that may differ by so much to either side: "716.2 to 791.5 N".
+    fn size_of_force(&self, middle: f64, spread: f64) -> String {
+        let ends = [middle.abs() - spread, middle.abs() + spread];
+        between(ends, &self.mechanism.units.clone().suited_to_most("N", &ends).of("N"))
     }
 
     /// Where the resultant of the pressure of a contact acts, whose normal force is not zero: `C = x N` about the middle of
@@ -103,7 +109,7 @@ impl Painter<'_> {
             if acts_there { self.pressed(slide, contact, forces) } else { self.face(slide, contact, side) };
         let direction = -slide.guide.along * (forces.friction.signum() * slide.action());
         let length = forces.friction.abs() * scale;
-        let text = self.shown(forces.friction.abs(), "N");
+        let text = self.size_of_force(forces.friction, forces.spread[1]);
         self.arrow_of_force(Class::Friction, (from, false), direction * length, text);
     }
 

@@ -35,7 +35,7 @@ mod view;
 pub use hinges::PinForce;
 pub use panels::{Caption, Panel, Shown};
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
-pub use sheet::{Held, Sheet, pieces, sheet, title};
+pub use sheet::{Held, Sheet, pieces, sheet, sheet_at_rest, title};
 pub use view::View;
 
 pub(crate) use forces::forces_on;
@@ -49,9 +49,10 @@ use play::Play;
 use slide::Slide;
 use slideway::configuration::Configuration;
 use slideway::ids::JointId;
-use slideway::mechanism::Mechanism;
+use slideway::mechanism::{Contact, Mechanism};
 use slideway::report::{Rejection, Solution};
 use slideway::solve::Locking;
+use slideway::standstill::{AtRest, Range};
 use slideway::units::Unit;
 
 /// Size of names.
@@ -96,6 +97,8 @@ pub struct ContactForces {
     pub(crate) friction: f64,
     /// Couple of a guided slider about the middle of the pressed face (N m).
     pub(crate) couple: f64,
+    /// By how much normal force and friction may differ from these to either side (N), as at rest; else 0.
+    pub(crate) spread: [f64; 2],
 }
 
 impl ContactStates {
@@ -107,6 +110,7 @@ impl ContactStates {
                 normal: contact.normal_force,
                 friction: contact.friction_force,
                 couple: contact.couple.unwrap_or(0.0),
+                spread: [0.0; 2],
             }),
             deflection: contact.deflection,
             gap_acceleration: contact.gap_acceleration,
@@ -133,16 +137,38 @@ impl ContactStates {
         Self { contacts, efforts: efforts.clone(), pins: Vec::new() }
     }
 
+    /// Returns the states at rest: the middle of each range of forces. One that may act either way, or is without bound, is left
+    /// out.
+    pub fn at_rest(mechanism: &Mechanism, rest: &AtRest) -> Self {
+        let state = |contact: &Contact| {
+            let found = rest.reactions.contacts.iter().find(|one| *one.name == *contact.name);
+            let one_way = |range: Range| one_way(range).unwrap_or_default();
+            let [normal, friction] =
+                found.map_or([[0.0; 2]; 2], |one| [one.normal_force, one.friction_force].map(one_way));
+            let spread = [normal[1], friction[1]];
+            let forces = ContactForces { normal: normal[0], friction: friction[0], couple: 0.0, spread };
+            let side = if forces.normal == 0.0 { 0.0 } else { forces.normal.signum() };
+            ContactState { side, forces: Some(forces), ..ContactState::default() }
+        };
+        Self { contacts: mechanism.contacts.iter().map(state).collect(), ..Self::default() }
+    }
+
     fn side(&self, contact: usize) -> f64 {
         self.contacts.get(contact).map_or(0.0, |state| state.side.clamp(-1.0, 1.0))
     }
+}
+
+/// The middle of a range of one sign, and half its width.
+fn one_way(range: Range) -> Option<[f64; 2]> {
+    let (least, greatest) = range.least.zip(range.greatest)?;
+    (least * greatest >= 0.0).then_some([f64::midpoint(least, greatest), 0.5 * (greatest - least)])
 }
 
 /// Contacts with these normal forces, friction forces and couples.
 fn contacts([normal, friction, couples]: [&Vec<f64>; 3]) -> impl Iterator<Item = ContactState> {
     normal.iter().zip(friction).zip(couples).map(|((&normal, &friction), &couple)| ContactState {
         side: if normal == 0.0 { 0.0 } else { normal.signum() },
-        forces: Some(ContactForces { normal, friction, couple }),
+        forces: Some(ContactForces { normal, friction, couple, spread: [0.0; 2] }),
         ..ContactState::default()
     })
 }
@@ -370,6 +396,16 @@ impl Painter<'_> {
 pub(crate) fn quantity(value: f64, unit: &Unit) -> String {
     let number = number(unit.number_of(value));
     if unit.name().is_empty() { number } else { format!("{number} {}", unit.name()) }
+}
+
+/// Two SI values in a unit: "716.2 to 791.5 N", "716.2 N" where they do not differ.
+fn between(ends: [f64; 2], unit: &Unit) -> String {
+    let [least, greatest] = ends.map(|end| number(unit.number_of(end)));
+    if least == greatest {
+        quantity(ends[0], unit)
+    } else {
+        format!("{least} to {}", quantity(ends[1], unit))
+    }
 }
 
 /// The signs of a pattern one by one, with true minus signs.

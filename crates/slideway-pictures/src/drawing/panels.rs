@@ -3,17 +3,24 @@
 use super::loads::LONGEST_ARROW;
 use super::scene::Scene;
 use super::units::known_forces;
-use super::{ContactStates, SceneOptions, View, number, quantity, scene, signs};
+use super::{ContactStates, SceneOptions, View, between, number, one_way, quantity, scene, signs};
 use slideway::configuration::Configuration;
 use slideway::mechanism::{Contact, Mechanism};
 use slideway::report::{JointMode, MarginsMissing, Rejection, Solution, SolveReport, Status};
 use slideway::solve::{Locking, locking};
+use slideway::standstill::{AtRest, ContactRange, Range};
 
 /// The most solutions that are drawn.
 pub(super) const MOST: usize = 24;
 /// Length of the longest arrow of a force, and to which it may grow at a scale that is held where there is space for it.
 pub(super) const LONGEST_FORCE: f64 = 76.0;
 pub(super) const LONGEST_HELD: f64 = 3.0 * LONGEST_FORCE;
+
+/// Half widths of ranges below this have no length in a drawing (drawing units).
+const NOTHING: f64 = 1e-6;
+/// Remark on forces of which only ranges are known.
+const RANGES: &str =
+    "Arrows are in the middle of their ranges: which forces it has depends on how it came to rest.";
 
 /// Remark on a picture whose guides are drawn with a play that can be seen instead of their own.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
@@ -96,11 +103,25 @@ pub(super) struct Drawn<'a> {
     pub(super) mechanism: &'a Mechanism,
     pub(super) configuration: &'a Configuration,
     pub(super) report: Option<&'a SolveReport>,
+    /// What holds it, if that is drawn instead of solutions.
+    pub(super) rest: Option<&'a AtRest>,
     pub(super) view: &'a View,
     /// The force whose arrow is the longest; without it, the greatest of each drawing.
     pub(super) longest_force: Option<f64>,
     /// To which length arrows may grow at a scale that is held.
     pub(super) longest_held: f64,
+}
+
+impl<'a> Drawn<'a> {
+    /// The mechanism alone, its forces to the scale of each drawing.
+    pub(super) fn by_itself(
+        mechanism: &'a Mechanism,
+        configuration: &'a Configuration,
+        view: &'a View,
+    ) -> Self {
+        let (longest_force, longest_held) = (None, LONGEST_HELD);
+        Self { mechanism, configuration, report: None, rest: None, view, longest_force, longest_held }
+    }
 }
 
 impl Drawn<'_> {
@@ -128,6 +149,7 @@ impl Drawn<'_> {
                     panels[0].caption.lines.extend(self.why_no_jam());
                 }
                 panels.extend(jam);
+                panels.extend(self.rest.map(|rest| self.at_rest(rest)));
                 panels.extend(rejected.iter().map(|rejection| self.tipping(rejection)).take(MOST));
                 let numbered = solutions.iter().enumerate().map(|(index, solution)| {
                     self.solution(solution, format!("Solution {} of {count}", index + 1), false)
@@ -281,6 +303,44 @@ impl Drawn<'_> {
         let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
         let table = pins(solution, self.mechanism);
         Panel { scene, caption: Caption { heading, lines, table }, force_scale }
+    }
+
+    /// The forces that hold it.
+    fn at_rest(&self, rest: &AtRest) -> Panel {
+        let states = ContactStates::at_rest(self.mechanism, rest);
+        let forces = states.contacts.iter().filter_map(|contact| contact.forces);
+        let sizes = forces.clone().flat_map(|one| [one.normal, one.friction]).map(f64::abs);
+        let (scale, force_scale, longest_arrow) = self.scale(sizes.fold(0.0, f64::max));
+        let options = SceneOptions { velocities: false, longest_arrow, ..SceneOptions::contact_mode(scale) };
+        let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
+        let contacts = rest.reactions.contacts.iter();
+        let mut lines: Vec<String> = contacts.flat_map(|contact| self.without_arrow(contact)).collect();
+        if forces.flat_map(|one| one.spread).any(|spread| spread * scale > NOTHING) {
+            lines.push(RANGES.to_owned());
+        }
+        lines.extend(scale_of_play(&scene));
+        let caption = Caption { heading: "Forces at rest".to_owned(), lines, ..Caption::default() };
+        Panel { scene, caption, force_scale }
+    }
+
+    /// The forces of a contact that have no arrow: "Friction of floor: -65.17 to 92.48 N."
+    fn without_arrow(&self, contact: &ContactRange) -> impl Iterator<Item = String> {
+        let told = |(what, range): (&str, Range)| {
+            if one_way(range).is_some() {
+                return None;
+            }
+            let ends: Vec<f64> = [range.least, range.greatest].into_iter().flatten().collect();
+            let unit = self.mechanism.units.clone().suited_to_most("N", &ends).of("N");
+            let words = match (range.least, range.greatest) {
+                (Some(least), Some(greatest)) => between([least, greatest], &unit),
+                (Some(least), None) => format!("{} or more", quantity(least, &unit)),
+                (None, Some(greatest)) => format!("{} or less", quantity(greatest, &unit)),
+                (None, None) => "any".to_owned(),
+            };
+            Some(format!("{what} of {}: {words}.", contact.name))
+        };
+        let both = [("Normal force", contact.normal_force), ("Friction", contact.friction_force)];
+        both.map(told).into_iter().flatten()
     }
 
     /// The greatest force of a contact or of a hinge with friction (N), or of a load if none has any.

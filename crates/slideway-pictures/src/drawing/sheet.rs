@@ -100,12 +100,6 @@ impl Sheet {
         self.headed(&with_minus_signs(&format!("Forces at contacts are not drawn: {}.", reasons.join("; "))))
     }
 
-    /// Writes below the title whether it stays at rest.
-    #[must_use]
-    pub fn at_rest(self, report: &HoldReport) -> Self {
-        self.headed(&with_minus_signs(&format!("At rest: {}", report.answer())))
-    }
-
     /// The same, with a further paragraph at the end of the heading.
     fn headed(mut self, text: &str) -> Self {
         let (count, foot) = self.heading;
@@ -145,8 +139,7 @@ pub fn sheet(
 ) -> Option<Sheet> {
     let mechanism = &in_units_of(report, mechanism, configuration);
     let view = view(mechanism, configuration, 1.0);
-    let (longest_force, longest_held) = (None, LONGEST_HELD);
-    let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force, longest_held };
+    let drawn = Drawn { report, ..Drawn::by_itself(mechanism, configuration, &view) };
     let panels = drawn.panels(shown)?;
     let title = title(mechanism);
     let mut lines: Vec<String> =
@@ -155,6 +148,18 @@ pub fn sheet(
     let description = described(&lines, &panels);
     let forces_on = forces_on(mechanism);
     Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
+}
+
+/// Drawings of a mechanism and of the forces that hold it at rest, side by side; of the mechanism alone where none do.
+pub fn sheet_at_rest(mechanism: &Mechanism, configuration: &Configuration, report: &HoldReport) -> Sheet {
+    let view = view(mechanism, configuration, 1.0);
+    let rest = report.at_rest.as_ref();
+    let panels = Drawn { rest, ..Drawn::by_itself(mechanism, configuration, &view) }.panels(Shown::All);
+    let panels = panels.unwrap_or_default();
+    let lines = vec![with_minus_signs(&format!("At rest: {}", report.answer()))];
+    let description = described(&lines, &panels);
+    let (title, forces_on) = (title(mechanism), forces_on(mechanism));
+    Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description)
 }
 
 /// Draws each panel of a sheet by itself, with its caption, and at the end the key to the colours, for a page
@@ -193,7 +198,8 @@ pub fn pieces(
     let within = |room: f64| {
         let view = view(mechanism, configuration, room);
         let longest_force = held.and_then(|held| held.longest_force);
-        let drawn = Drawn { mechanism, configuration, report, view: &view, longest_force, longest_held };
+        let by_itself = Drawn::by_itself(mechanism, configuration, &view);
+        let drawn = Drawn { report, longest_force, longest_held, ..by_itself };
         let panels = drawn.panels(Shown::All).unwrap_or_default();
         let (title, lines, forces_on) = (title(mechanism), Vec::new(), forces_on(mechanism));
         Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held, room)

@@ -174,7 +174,7 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
     places
 }
 
-/// Corners of the block and its contacts.
+/// Corners of the block, its contacts, and where faces are of which it is apart.
 fn slider_places(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Vec<Vector2<f64>> {
     let tangent = configuration.direction(slider.block, slider.tangent);
     let middle = configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at });
@@ -184,9 +184,15 @@ fn slider_places(mechanism: &Mechanism, configuration: &Configuration, slider: &
     if slider.block.body().is_some_and(|body| is_belt(mechanism, body)) {
         return contacts.collect();
     }
+    let normal = configuration.slide(mechanism, slider).normal;
+    let faces = configuration.gaps(mechanism, slider).zip(&slider.apart).map(|([gap, _], contact)| {
+        let position = contact.position(slider);
+        configuration.position(mechanism, &Attachment { frame: slider.block, position }) - normal * gap
+    });
     [middle + half + across, middle - half + across, middle + half - across, middle - half - across]
         .into_iter()
         .chain(contacts)
+        .chain(faces)
         .collect()
 }
 

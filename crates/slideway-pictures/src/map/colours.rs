@@ -31,6 +31,8 @@ const LOCKED_IN_OPPOSITE: &str = "#f7d488";
 const BOTH: &str = "#8cc4e6";
 /// It slows down, or does not stay at rest.
 const SLIPS: &str = "#e69f00";
+/// It stays at rest: beside any number of solutions.
+const HOLDS: &str = "#9ec79a";
 const SEVERAL: &str = "#d9a5c3";
 /// It is not decided.
 const OPEN: &str = "#8a63b8";
@@ -78,9 +80,9 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         | ClassMeaning::Rest { holds: Some(true), may_slip: true } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
         ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
-        ClassMeaning::Rest { holds: Some(true), .. } => plain(numbers[1]),
+        ClassMeaning::Rest { holds: Some(true), .. } => plain(HOLDS),
         ClassMeaning::Rest { holds: Some(false), .. } => plain(SLIPS),
-        ClassMeaning::Continuum { .. } => plain(theme.ink),
+        ClassMeaning::Continuum => plain(theme.ink),
         ClassMeaning::Undecided | ClassMeaning::TooLarge | ClassMeaning::Rest { holds: None, .. } => {
             Paint { fill: OPEN, hatching: Some(Hatching::Falling) }
         }

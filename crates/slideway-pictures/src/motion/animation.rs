@@ -246,6 +246,7 @@ impl<'h> Painted<'h> {
                 normal: normal.unwrap_or(0.0),
                 friction: friction.unwrap_or(0.0),
                 couple: 0.0,
+                spread: [0.0; 2],
             }),
             ..ContactState::default()
         });

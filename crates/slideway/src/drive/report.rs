@@ -209,7 +209,7 @@ impl EfficiencyKind {
             Self::Driving => "driving",
             Self::Braking => "braking",
             Self::HeldByFriction => "held by friction",
-            Self::NoPower => "no power",
+            Self::NoPower => "no load",
             Self::Undefined => "none",
         }
     }

@@ -5,7 +5,7 @@ use super::report::{
     EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{Status, Verdict, spaced};
+use crate::report::{OPENS, Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -93,7 +93,9 @@ fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
             "it is not decided whether it moves: it is on the verge of jamming. Take it as jammed.".to_owned()
         }
         ([], _) => stuck(report, direction, is_advised),
-        ([only], _) => format!("{}.{}", needs_one(report, direction, only), unsettled(only.attainability)),
+        ([only], _) => {
+            format!("{}.{}{}", needs_one(report, direction, only), lifts(only), unsettled(only.attainability))
+        }
         (several, _) => needs_several(report, several),
     }
 }
@@ -148,6 +150,7 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
     let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
     let gain = match (only.efficiency.is, only.efficiency.value) {
+        _ if is_idle && only.efforts.iter().all(|effort| *effort == 0.0) => ": nothing resists it".to_owned(),
         _ if is_idle => ", all of it against friction".to_owned(),
         (EfficiencyKind::Driving, Some(value)) => format!(": efficiency {}", percent(value)),
         (EfficiencyKind::Braking, Some(value)) => {
@@ -162,6 +165,13 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
         _ => "; without friction the drives push, with it they brake".to_owned(),
     };
     needs.join(", ") + &gain
+}
+
+/// " foot lifts off.", of joints that open.
+fn lifts(only: &DriveSolution) -> String {
+    let opens = only.joints.iter().filter(|joint| joint.mode == OPENS);
+    let words: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
+    words.concat()
 }
 
 /// "2 states are possible: push needs 9.091 N, or -100 N (unstable)."

@@ -276,6 +276,8 @@ impl ExpressionFaultKind {
 }
 
 const MULTIPLY: &str = "write `*` to multiply";
+/// Of `t`, which stands for the time where it is no unit.
+const TIME: &str = "; to multiply, write `*`";
 
 fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
@@ -293,6 +295,9 @@ fn character_hint(character: char) -> Option<String> {
 }
 
 fn unit_hint(unit: &str, nearest: &[&str], is_name: bool) -> Option<String> {
+    if matches!(unit, "t" | "ton" | "tons" | "tonne" | "tonnes") {
+        return Some(format!("write a tonne as `1 Mg` or `1000 kg`{}", if is_name { TIME } else { "" }));
+    }
     if is_name {
         return Some(MULTIPLY.to_owned());
     }

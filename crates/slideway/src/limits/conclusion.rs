@@ -191,13 +191,12 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
     direction.counts.iter().flat_map(pieces).collect()
 }
 
-/// "it starts in one way: base: closed, slides forwards", "it can start in 2 ways: it holds, or tip: opens"
+/// "it starts to move: base slides forwards", "it can go on in 2 ways: it holds, or it starts to move: tip opens"
 fn starts_in_words(starts: &[String]) -> String {
     match starts {
         [] => "it can neither rest nor start".to_owned(),
-        [only] if only == HOLDS => HOLDS.to_owned(),
-        [only] => format!("it starts in one way: {only}"),
-        several => format!("it can start in {} ways: {}", several.len(), several.join(", or ")),
+        [only] => only.clone(),
+        several => format!("it can go on in {} ways: {}", several.len(), several.join(", or ")),
     }
 }
 

@@ -5,7 +5,7 @@ use crate::fault::{FaultKind, Faults};
 use crate::modes::ContactState;
 use crate::modes::existence::{ExistenceOptions, counts};
 use crate::progress::Work;
-use crate::report::SpeedChange;
+use crate::report::{HOLDS, SpeedChange};
 use crate::solve::{AT_ONCE, Parts, StateWithinTolerances, pattern};
 use serde::Serialize;
 
@@ -82,12 +82,8 @@ pub enum ClassMeaning {
     },
     /// Not decided: rounding hides whether there is a solution.
     Undecided,
-    /// Infinitely many solutions.
-    Continuum {
-        /// Whether some of them is a state of rest.
-        #[serde(skip_serializing_if = "std::ops::Not::not")]
-        rests: bool,
-    },
+    /// Infinitely many solutions, none of them at rest.
+    Continuum,
     /// Too many patterns or solutions to find all of them.
     TooLarge,
     /// There is no mode problem, for this reason.
@@ -183,6 +179,14 @@ pub(super) struct States {
     pub(super) margin: Option<ClassMeaning>,
 }
 
+impl States {
+    /// Whether it stays at rest: in its only solution, or in some of infinitely many.
+    fn rests(&self) -> bool {
+        let is_at_rest = |starts: &Vec<String>| *starts == [HOLDS];
+        self.continuum == Some(true) || self.starts.as_ref().is_some_and(is_at_rest)
+    }
+}
+
 /// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone; `bounds` are those
 /// of the classes of `Effort`.
 pub(super) fn class(
@@ -218,8 +222,12 @@ pub(super) fn class(
             }
         };
     }
-    if let Some(rests) = states.continuum {
-        return ClassMeaning::Continuum { rests };
+    // What a drive needs for rest is told by its effort, if that is one value.
+    if states.rests() && (colour_by != ColourBy::Effort || answer.least_effort().is_none()) {
+        return ClassMeaning::Rest { holds: Some(true), may_slip: false };
+    }
+    if states.continuum.is_some() {
+        return ClassMeaning::Continuum;
     }
     if !moves(states) {
         return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };

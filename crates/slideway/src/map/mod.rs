@@ -84,7 +84,7 @@ impl Choice for ColourBy {
         (
             Self::Motion,
             "motion",
-            "What happens: whether it speeds up or slows down, and at rest whether it sticks, slides, tips or lifts off",
+            "What happens: whether it speeds up or slows down, and at rest whether it holds, slides, tips or lifts off",
         ),
         (Self::Effort, "effort", "The force or torque of the first drive, the least of several solutions"),
         (Self::Hold, "hold", "Whether it can stay at rest, its drives absent"),
@@ -99,7 +99,7 @@ impl ColourBy {
             Self::Modes => "contact modes that have a solution",
             Self::Margin => "margin of friction",
             Self::Jam => "directions in which it can move",
-            Self::Motion => "what becomes of the speed",
+            Self::Motion => "what becomes of the motion",
             Self::Effort => "effort of the drive",
             Self::Hold => "whether it can stay at rest",
         }

@@ -119,7 +119,10 @@ impl Report for MapReport {
         };
         let mut sentences: Vec<String> = classes.iter().enumerate().take(NAMED).map(one).collect();
         if classes.len() > NAMED {
-            sentences.push(format!("{} more classes.", classes.len() - NAMED));
+            sentences.push(match classes.len() - NAMED {
+                1 => "One more class.".to_owned(),
+                more => format!("{more} more classes."),
+            });
         }
         sentences.join(" ")
     }
@@ -308,13 +311,11 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
         ClassMeaning::Rest { holds: Some(true), may_slip: true } => {
             "holds only if something has wedged it: do not rely on it".to_owned()
         }
-        ClassMeaning::Rest { holds: Some(true), .. } | ClassMeaning::Continuum { rests: true } => {
-            "holds".to_owned()
-        }
+        ClassMeaning::Rest { holds: Some(true), .. } => "holds".to_owned(),
         ClassMeaning::Rest { holds: Some(false), .. } => "does not hold".to_owned(),
         ClassMeaning::Rest { holds: None, .. } => "whether it holds is not decided".to_owned(),
         ClassMeaning::Undecided => "not decided: it is on the verge of jamming; take it as jammed".to_owned(),
-        ClassMeaning::Continuum { .. } => "infinitely many solutions".to_owned(),
+        ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
     }

@@ -12,12 +12,17 @@ pub(crate) const AT_THE_MIDDLE: &str =
     "parameters known within bounds are taken at the middle of their ranges";
 /// Of a block that keeps one corner on its face.
 pub(crate) const TIPS: &str = "it tips";
+/// Of a corner or block that leaves its face.
+pub(crate) const OPENS: &str = "opens";
 /// Of a state that stays at rest.
 pub(crate) const HOLDS: &str = "it holds";
 /// The remedy where a search ended early.
 const MORE_TIME: &str = "Allow it more time.";
 /// The remedy at a boundary.
 const NEARBY: &str = "Ask again with slightly more or less friction or load.";
+
+/// Of a contact that may lift off and does not, before what it does.
+const CLOSED: &str = "closed, ";
 
 impl SolveReport {
     /// The verdict in a sentence: "It moves: push needs 36.36 N (20 N without friction)."
@@ -65,11 +70,27 @@ impl SolveReport {
         self.continua.iter().any(|continuum| continuum.rests)
     }
 
-    /// Words for the joints that are at rest and may lift off, for each solution: "base: closed, slides forwards", of one that
+    /// Words for the joints that are at rest and may lift off, for each solution: "base slides forwards", of one that
     /// stays at rest "it holds". None if no such joint is at rest. Without numbers, so that the same start has the same words in
     /// another state.
     pub(crate) fn starts(&self) -> Option<Vec<String>> {
         self.starts_in(|joint| joint.start.as_ref().unwrap_or(&joint.mode))
+    }
+
+    /// A clause for each of [`Self::starts`]: "it starts to move: base slides forwards", "it tips: base on its left corner, the
+    /// right one opens, slides forwards", of what moves already "it moves on: lower sticks".
+    pub(crate) fn start_clauses(&self) -> Option<Vec<String>> {
+        self.starts().map(|starts| starts.iter().map(|start| self.clause(start)).collect())
+    }
+
+    fn clause(&self, start: &str) -> String {
+        let moves = self.state.iter().any(|coordinate| coordinate.rate != 0.0);
+        match start.split_once(&format!(": {TIPS}")) {
+            _ if start == HOLDS => start.to_owned(),
+            Some((before, behind)) => format!("{TIPS}: {before}{behind}"),
+            None if moves => format!("it moves on: {start}"),
+            None => format!("it starts to move: {start}"),
+        }
     }
 
     fn starts_in(&self, words: impl Fn(&JointMode) -> &String) -> Option<Vec<String>> {
@@ -78,13 +99,17 @@ impl SolveReport {
                 return HOLDS.to_owned();
             }
             let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
-            joints.map(|joint| format!("{}: {}", joint.name, words(joint))).collect::<Vec<_>>().join("; ")
+            let one = |joint: &JointMode| {
+                let words = words(joint);
+                format!("{} {}", joint.name, words.strip_prefix(CLOSED).unwrap_or(words))
+            };
+            joints.map(one).collect::<Vec<_>>().join("; ")
         };
         (!self.at_rest.is_empty()).then(|| self.solutions.iter().map(start).collect())
     }
 
-    /// How it starts where contacts that may lift off are at rest: "It starts in one way. base: closed, slides forwards.", or
-    /// that it holds.
+    /// How it goes on where contacts that may lift off are at rest: "It starts to move: base slides forwards.", or that it
+    /// holds.
     fn start_in_words(&self) -> Option<String> {
         let starts = self.starts_in(|joint| &joint.mode)?;
         let unique = if self.every_load_has_one_state == Some(true) {
@@ -94,15 +119,13 @@ impl SolveReport {
         };
         Some(match (self.status, starts.as_slice()) {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
-            (Status::One, [only]) if only == HOLDS => format!("It holds.{unique}"),
             (Status::One, [only]) => {
-                let tips =
-                    self.solutions.iter().flat_map(|one| &one.joints).any(|one| one.mode.contains(TIPS));
-                let starts = if tips { "It tips" } else { "It starts in one way" };
-                format!("{starts}. {only}.{unique}")
+                let clause = self.clause(only);
+                format!("It {}.{unique}", clause.strip_prefix("it ").unwrap_or(&clause))
             }
             (Status::Several, several) => {
-                format!("It can start in {} ways. {}.", several.len(), several.join(". Or "))
+                let ways: Vec<String> = several.iter().map(|start| self.clause(start)).collect();
+                format!("It can go on in {} ways: {}.", ways.len(), ways.join(", or "))
             }
             _ => {
                 let also = match self.solutions.len() {

@@ -24,7 +24,7 @@ mod wrap;
 
 pub(crate) use crate::units::number;
 pub use crate::units::precise;
-pub(crate) use answer::{AT_THE_MIDDLE, HOLDS, TIPS};
+pub(crate) use answer::{AT_THE_MIDDLE, HOLDS, OPENS, TIPS};
 pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
@@ -235,6 +235,9 @@ pub struct ModelSummary {
     pub contacts: usize,
     /// Number of drives.
     pub drives: usize,
+    /// The size of the mechanism (m): what of a length is 13 digits below it is rounding.
+    #[serde(skip)]
+    pub(crate) size: f64,
     /// The units in which texts show its numbers.
     #[serde(skip)]
     pub units: Units,
@@ -296,6 +299,18 @@ impl SolveReport {
         let ends = open.flat_map(|range| range.from.iter().chain(&range.to).map(|end| (range.unit, *end)));
         let values: Vec<(&'static str, f64)> = states.flat_map(Solution::efforts).chain(ends).collect();
         self.model.units = std::mem::take(&mut self.model.units).suited_to(values);
+    }
+}
+
+impl Solution {
+    /// The greatest acceleration of a body, of which that of a coordinate with this unit is made: what is 13 digits below it is
+    /// rounding.
+    pub(crate) fn greatest_acceleration(&self, unit: &str) -> f64 {
+        let of_body = |body: &Body| match unit {
+            "rad/s^2" => body.angular_acceleration.abs(),
+            _ => body.acceleration[0].hypot(body.acceleration[1]),
+        };
+        self.bodies.iter().map(of_body).fold(0.0, f64::max)
     }
 }
 

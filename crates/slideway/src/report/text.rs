@@ -569,10 +569,8 @@ fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<
     let units = &report.model.units;
     // Of a coordinate that a drive moves the acceleration is given.
     let is_told = |coordinate: &CoordinateAcceleration| verbose || coordinate.speed.is_some();
-    for (index, coordinate) in
-        solution.coordinates.iter().enumerate().filter(|(_, coordinate)| is_told(coordinate))
-    {
-        let scale = report.influence.coordinate_accelerations[index].abs();
+    for coordinate in solution.coordinates.iter().filter(|coordinate| is_told(coordinate)) {
+        let scale = solution.greatest_acceleration(coordinate.unit);
         let unit = units.of(coordinate.unit);
         row(&coordinate.name, "acceleration", unit.against(coordinate.acceleration, scale), &unit);
     }

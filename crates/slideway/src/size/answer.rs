@@ -40,7 +40,7 @@ pub(super) fn report(
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
-        Against::Hold { load } => (MarginKind::Hold, Some(load.clone())),
+        Against::Hold { load } => (MarginKind::Hold, load.clone()),
         Against::Effort { drive } => (MarginKind::Effort, drive.clone()),
         Against::NormalForce { contact } => (MarginKind::NormalForce, contact.clone()),
         Against::Pressure { contact } => (MarginKind::Pressure, contact.clone()),

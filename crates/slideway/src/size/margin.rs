@@ -93,9 +93,10 @@ impl MarginQuestion<'_> {
                 self.both(|varied| Ok(self.kept(level(varied, self.against, value, work)?)))
             }
             Against::SelfLocking { load } => {
-                Ok(self.threshold((load, false), value, work)?.map_or(Margin::Infinite, Margin::Finite))
+                let threshold = self.threshold((Some(load), false), value, work)?;
+                Ok(threshold.map_or(Margin::Infinite, Margin::Finite))
             }
-            Against::Hold { load } => Ok(match self.threshold((load, true), value, work)? {
+            Against::Hold { load } => Ok(match self.threshold((load.as_deref(), true), value, work)? {
                 None => Margin::Finite(0.0),
                 Some(0.0) => Margin::Infinite,
                 Some(factor) => Margin::Finite(factor.recip()),
@@ -106,7 +107,7 @@ impl MarginQuestion<'_> {
     /// The margin of holding at a value while something has wedged it, if that is greater than this one, by itself.
     pub(super) fn wedged(&self, value: f64, by_itself: Margin, work: Work<'_>) -> Option<f64> {
         let Against::Hold { load } = self.against else { return None };
-        let factor = self.threshold((load, false), value, work).ok().flatten()?;
+        let factor = self.threshold((load.as_deref(), false), value, work).ok().flatten()?;
         let by_itself = by_itself.factor()?;
         (factor > 0.0 && by_itself * factor < 1.0 - SAME).then(|| factor.recip())
     }
@@ -142,11 +143,17 @@ impl MarginQuestion<'_> {
         }
     }
 
-    /// The factor of static friction from which on a load is held, however great: where the guides are wedged, or certainly.
-    fn threshold(&self, asked: (&str, bool), value: f64, work: Work<'_>) -> Result<Option<f64>, Faults> {
+    /// The factor of static friction from which on a load is held, however great, or all loads as they are: where the guides are wedged, or certainly.
+    fn threshold(
+        &self,
+        asked: (Option<&str>, bool),
+        value: f64,
+        work: Work<'_>,
+    ) -> Result<Option<f64>, Faults> {
         let (threshold, undecided) = self_locking_factor(&self.varied.model_at(value)?, asked, work)?;
         if undecided > 0 {
-            return Err(Fault::general(FaultKind::UndecidedAtRest { load: asked.0.to_owned() }).into());
+            let what = asked.0.unwrap_or("it").to_owned();
+            return Err(Fault::general(FaultKind::UndecidedAtRest { what }).into());
         }
         Ok(threshold.filter(|factor| factor.is_finite()))
     }

@@ -5,7 +5,8 @@
 //! the factor to which they have to fall, below 1. At one value it is known in closed form
 //! ([`crate::modes::existence`]); over a parameter it is bracketed. The margin against self-locking is the
 //! factor by which all static coefficients may grow before a load is held however great it is; the margin of
-//! holding is its inverse, the factor by which they may be smaller.
+//! holding is the inverse of that, or of the factor from which on all loads are held as they are: by how much friction may be
+//! smaller.
 //!
 //! ```
 //! use slideway::model::Model;
@@ -64,10 +65,10 @@ pub enum Against {
         /// Name of the load or drive.
         load: String,
     },
-    /// The opposite wish: this load is to be held however great it is.
+    /// The opposite wish: it is to be held under its loads.
     Hold {
-        /// Name of the load or drive.
-        load: String,
+        /// Name of the load or drive that is to be held however great it is; without one, all loads as they are.
+        load: Option<String>,
     },
     /// The greatest effort of this drive, or of all, in any solution; without a solution it is exceeded.
     Effort {
@@ -106,24 +107,28 @@ impl Choice for FrictionMargin {
     const CHOICES: &'static [(Self, &'static str, &'static str)] = &[
         (Self::Locking, "locking", "Locking in motion"),
         (Self::SelfLocking, "self-locking", "Self-locking at rest under the load"),
-        (Self::Hold, "hold", "Slipping at rest: the load must be held however great it is"),
+        (
+            Self::Hold,
+            "hold",
+            "Slipping at rest: the loads must be held, or with --load one however great it is",
+        ),
     ];
 }
 
 impl Against {
-    /// This margin, at rest under a load, by default the only one.
+    /// This margin, at rest under a load: that of self-locking by default the only one, that of holding all of them as they are.
     ///
     /// # Errors
     /// A margin at rest without a load where the model has several, one of motion with a load.
     pub fn margin(margin: FrictionMargin, load: Option<String>, model: &Model) -> Result<Self, Faults> {
-        let or_only = |load: Option<String>| load.map_or_else(|| only_load(model), Ok);
         match (margin, load) {
             (FrictionMargin::Locking, None) => Ok(Self::Locking),
             (FrictionMargin::Locking, Some(load)) => {
                 Err(Fault::general(FaultKind::LoadUnused { load }).into())
             }
-            (FrictionMargin::SelfLocking, load) => Ok(Self::SelfLocking { load: or_only(load)? }),
-            (FrictionMargin::Hold, load) => Ok(Self::Hold { load: or_only(load)? }),
+            (FrictionMargin::SelfLocking, Some(load)) => Ok(Self::SelfLocking { load }),
+            (FrictionMargin::SelfLocking, None) => Ok(Self::SelfLocking { load: only_load(model)? }),
+            (FrictionMargin::Hold, load) => Ok(Self::Hold { load }),
         }
     }
 

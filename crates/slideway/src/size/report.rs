@@ -17,7 +17,7 @@ pub enum MarginKind {
     Locking,
     /// The factor by which static friction may grow before a load is held however great it is.
     SelfLocking,
-    /// The factor by which static friction may be smaller while a load is held however great it is.
+    /// The factor by which static friction may be smaller while all loads are held as they are, or one however great it is.
     Hold,
     /// Not a factor but the greatest effort of a drive, or of all (N or N m).
     Effort,
@@ -80,7 +80,7 @@ pub struct SizeReport {
     pub units: Units,
     /// Which margin is meant.
     pub against: MarginKind,
-    /// The load, drive or contact that it concerns; absent against locking, and where it concerns all.
+    /// The load, drive or contact that it concerns; absent against locking, and where it concerns all of them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<String>,
     /// The wanted margin; against an effort, normal force, bearing pressure or efficiency the limit that it

@@ -145,6 +145,7 @@ impl Words<'_> {
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking => "it is on the verge of jamming".to_owned(),
+                _ if load.is_empty() => "it just holds".to_owned(),
                 _ => format!("the load `{load}` is just held, however great it is"),
             },
             (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
@@ -184,6 +185,11 @@ impl Words<'_> {
             (MarginKind::SelfLocking, false) => format!(
                 "it is self-locking under `{load}`; static friction would have to fall to {factor} of its value"
             ),
+            (_, _) if margin == 0.0 && load.is_empty() => "no static friction holds it".to_owned(),
+            (_, true) if load.is_empty() => format!("it holds with a safety factor of {factor}, {enough}"),
+            (_, false) if load.is_empty() => {
+                format!("it does not hold; it needs {} times its static friction", brief(margin.recip()))
+            }
             (_, _) if margin == 0.0 => format!("no static friction holds every `{load}`"),
             (_, true) => {
                 format!(
@@ -219,6 +225,7 @@ fn never(report: &SizeReport) -> String {
     match report.against {
         MarginKind::Locking => "more friction would not jam it".to_owned(),
         MarginKind::SelfLocking => format!("no static friction, however great, holds every `{load}`"),
+        MarginKind::Hold if load.is_empty() => "it holds without friction".to_owned(),
         MarginKind::Hold => format!("`{load}` is held without friction, however great it is"),
         // These are numbers wherever there is a solution.
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure | MarginKind::Efficiency => {
@@ -255,6 +262,7 @@ fn wish(report: &SizeReport) -> String {
         MarginKind::SelfLocking => {
             format!("So that `{load}` does not lock it, with a safety factor of {margin}")
         }
+        MarginKind::Hold if load.is_empty() => format!("To hold with a safety factor of {margin}"),
         MarginKind::Hold => {
             format!("To hold the load `{load}`, however great, with a safety factor of {margin}")
         }

@@ -324,6 +324,7 @@ impl<'a> Answer<'a> {
             bodies: self.mechanism.bodies.len(),
             contacts: self.mechanism.places().count(),
             drives: self.mechanism.drives.len(),
+            size: self.mechanism.size,
             units: self.mechanism.units.clone(),
         }
     }

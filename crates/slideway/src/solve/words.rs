@@ -6,7 +6,7 @@
 use crate::ids::ContactId;
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::SliderKind;
-use crate::report::TIPS;
+use crate::report::{OPENS, TIPS};
 use nalgebra::Vector2;
 
 /// The contact mode of a sliding joint.
@@ -103,7 +103,7 @@ impl GuideInWords {
     /// What a corner or a block does on a face that it may leave.
     fn on_face(&self, signs: &[i8]) -> String {
         match signs {
-            [-1] | [-1, -1] => "opens".to_owned(),
+            [-1] | [-1, -1] => OPENS.to_owned(),
             [0] | [0, 0] => "without contact force".to_owned(),
             [_] | [0 | 1, 0 | 1] => "closed".to_owned(),
             [front, ..] => {

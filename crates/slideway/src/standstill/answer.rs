@@ -3,14 +3,24 @@
 use super::TOLERANCE;
 use super::ranges::{greatest, words};
 use super::report::{
-    CoordinateRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release, Threshold, Wedging,
+    CoordinateRange, FrictionNeeded, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release,
+    Threshold, Wedging,
 };
 use crate::units::number::brief;
 
 /// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from
 /// mu_static = 0.1667 (now 0.2)."
 pub(super) fn answer(report: &HoldReport) -> String {
-    let Some(load) = &report.load else { return verdict(report) };
+    let Some(load) = &report.load else {
+        let friction = report.friction.as_ref().filter(|_| report.is_decided());
+        let needed = friction.and_then(|friction| needed(report.verdict, friction));
+        let verdict = verdict(report);
+        return match needed {
+            None => verdict,
+            Some(Needed::Clause(clause)) => verdict.replacen("It holds", &format!("It holds {clause}"), 1),
+            Some(Needed::Sentence(sentence)) => format!("{verdict} {sentence}"),
+        };
+    };
     let is_all = load.held == [Range { least: None, greatest: None }];
     let mut sentences = Vec::new();
     // That it holds is said by what it holds.
@@ -53,6 +63,41 @@ fn verdict(report: &HoldReport) -> String {
     }
 }
 
+/// What is said of the static friction that the loads need as they are.
+enum Needed {
+    /// Behind "It holds".
+    Clause(String),
+    Sentence(String),
+}
+
+/// "with a safety factor of 1.8", "It would hold from mu_static = 0.36 (now 0.3)."
+fn needed(verdict: HoldVerdict, friction: &FrictionNeeded) -> Option<Needed> {
+    let FrictionNeeded { threshold: known, certain_from, .. } = friction;
+    match (verdict, *certain_from) {
+        (HoldVerdict::Holds | HoldVerdict::HoldsUntilPushed | HoldVerdict::MayHold, certain) => {
+            let certain = certain.filter(|from| *from <= known.present * (1.0 + TOLERANCE))?;
+            let factor = brief(known.present / certain);
+            Some(Needed::Clause(match factor.as_str() {
+                _ if certain == 0.0 => "even without friction".to_owned(),
+                "1" if known.parameter.is_some() => {
+                    format!("only just, {}: with any less it slips", from(known, certain))
+                }
+                "1" => "only just: with any less friction it slips".to_owned(),
+                factor => format!("with a safety factor of {factor}"),
+            }))
+        }
+        (HoldVerdict::Neither, _) => None,
+        (HoldVerdict::HoldsOrSlips, certain) => {
+            Some(Needed::Sentence(format!("It holds for certain {}.", from(known, certain?))))
+        }
+        (_, Some(certain)) => Some(Needed::Sentence(format!("It would hold {}.", from(known, certain)))),
+        (_, None) if known.value.is_none() && known.undecided == 0 => {
+            Some(Needed::Sentence("More friction would not hold it.".to_owned()))
+        }
+        (_, None) => None,
+    }
+}
+
 /// Why something may slide that would hold: what a designer of a bracket that carries its own weight has to know.
 const FALLS_FREELY: &str = " While it slides nothing presses its guides; let down gently it holds.";
 
@@ -64,7 +109,7 @@ const NOTHING: f64 = 1e-12;
 fn falls_freely(report: &HoldReport) -> bool {
     let is_zero = |range: &Range| {
         let ends = [range.least, range.greatest];
-        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.greatest_at_rest()))
+        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.force))
     };
     let nothing_presses = |release: &Release| {
         let contacts = &release.reactions.contacts;

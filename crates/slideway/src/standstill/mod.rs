@@ -59,13 +59,14 @@ mod turning;
 mod words;
 
 pub use report::{
-    AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, GapRange, HingeRange,
-    HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release, SCHEMA, Threshold, Wedging,
+    AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, FrictionNeeded,
+    GapRange, HingeRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release,
+    SCHEMA, Threshold, Wedging,
 };
 
 use crate::configuration::{motions_without_inertia, unit};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Contact, Mechanism};
 use crate::model::Model;
 use crate::one_face::{Pressed, one_face_hints};
 use crate::progress::{Callback, Work, undisturbed, watched};
@@ -168,11 +169,14 @@ pub(crate) fn hold_within(
     let part = |index| work.part(index, 2 + loads + sharings);
     let (rest, is_held) = rest::at_rest(&setup, nominal, part(0));
     let load = load_report(model, options, &setup, part(1))?;
+    let friction =
+        if setup.load.is_none() { friction_needed(model, options, &setup, part(0))? } else { None };
     let wedging = threshold::wedging(model, options, &setup, part(1 + loads))?;
     let beginning = Beginning::new(&setup, is_held, part(1 + loads + sharings));
     let original = Mechanism::new(model)?;
     let of_load = load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
     let of_wedging = wedging.as_ref().map_or(0, |threshold| threshold.undecided);
+    let of_friction = friction.as_ref().map_or(0, |friction| friction.threshold.undecided);
     let mut report = HoldReport {
         schema: SCHEMA,
         title: setup.mechanism.title.clone(),
@@ -184,18 +188,20 @@ pub(crate) fn hold_within(
         rates_ignored: original.coordinates.iter().any(|coordinate| coordinate.rate != 0.0),
         released_drives: drives(&original, options, false),
         holding_drives: drives(&original, options, true),
-        undecided: rest.undecided + beginning.releases.undecided + of_load + of_wedging,
+        undecided: rest.undecided + beginning.releases.undecided + of_load + of_wedging + of_friction,
         sharing: match &setup.shared {
             Some(shared) => load_sharing(&setup.mechanism, &shared.self_stress)?,
             None => None,
         },
         wedging: wedging.map(told_wedging),
         load,
+        friction,
         at_rest: rest.found,
         releases: beginning.releases.found,
         one_face_hints: Vec::new(),
         release_patterns: beginning.directions * rest_patterns,
         motions_without_inertia: beginning.motions_without_inertia,
+        force: setup.units.force,
         rest_patterns,
     };
     let states = report.normal_forces();
@@ -281,24 +287,22 @@ pub(crate) fn rests(model: &Model, options: &HoldOptions, work: Work<'_>) -> Res
     Ok(Rests { holds, may_slip })
 }
 
-/// The factor of all static coefficients from which on a load alone, however great, is held; nothing if no
-/// factor suffices. With `certain` it is that from which on nothing can slide, otherwise wedged guides count, too.
+/// The factor of all static coefficients from which on a load alone, however great, is held, or without a load all loads as
+/// they are; nothing if no factor suffices. With `certain` it is that from which on nothing can slide, otherwise wedged guides count, too.
 /// Beside it the number of patterns that could not be decided.
 ///
 /// # Errors
 /// As [`hold`].
 pub(crate) fn self_locking_factor(
     model: &Model,
-    (load, certain): (&str, bool),
+    (load, certain): (Option<&str>, bool),
     work: Work<'_>,
 ) -> Result<(Option<f64>, usize), Faults> {
-    let options = HoldOptions::default().load(load);
+    let options = HoldOptions { load: load.map(str::to_owned), ..HoldOptions::default() };
     let setup = Setup::new(model, &options, work)?;
     check_states(&setup, MOST_STATES)?;
-    let threshold = threshold::threshold(model, &options, &setup, work)?;
-    Ok(threshold.map_or((None, 0), |(threshold, by_itself)| {
-        (if certain { by_itself } else { threshold.value }, threshold.undecided)
-    }))
+    let (threshold, by_itself) = threshold::threshold(model, &options, &setup, work)?;
+    Ok((if certain { by_itself } else { threshold.value }, threshold.undecided))
 }
 
 /// The same question; a parameter that is varied without a load is varied for the only load.
@@ -357,10 +361,7 @@ fn load_report(
     work: Work<'_>,
 ) -> Result<Option<LoadReport>, Faults> {
     let Some(load) = &setup.load else { return Ok(None) };
-    let Some((threshold, certain_from)) = threshold::threshold(model, options, setup, work.part(0, 2))?
-    else {
-        return Ok(None);
-    };
+    let (threshold, certain_from) = threshold::threshold(model, options, setup, work.part(0, 2))?;
     let held = rest::held_factors(setup, work.part(1, 2));
     Ok(Some(LoadReport {
         name: load.name.clone(),
@@ -372,6 +373,26 @@ fn load_report(
         threshold,
         certain_from,
     }))
+}
+
+/// The static friction that the loads need as they are; none if there is no static friction that could hold anything, or some
+/// in hinges.
+///
+/// # Errors
+/// As [`hold`].
+fn friction_needed(
+    model: &Model,
+    options: &HoldOptions,
+    setup: &Setup,
+    work: Work<'_>,
+) -> Result<Option<FrictionNeeded>, Faults> {
+    let rubs = |contact: &Contact| contact.mu_static.iter().any(|mu| *mu > 0.0);
+    if setup.mechanism.rough_hinges().next().is_some() || !setup.mechanism.contacts.iter().any(rubs) {
+        return Ok(None);
+    }
+    let (threshold, certain_from) = threshold::threshold(model, options, setup, work)?;
+    let safety_factor = certain_from.filter(|from| *from > 0.0).map(f64::recip);
+    Ok(Some(FrictionNeeded { threshold, certain_from, safety_factor }))
 }
 
 /// Whether the threshold is reached.

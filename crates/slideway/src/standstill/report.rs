@@ -1,6 +1,5 @@
 //! What the analysis of standstill tells, as plain data.
 
-use super::ranges::greatest;
 use crate::one_face::NormalForces;
 use crate::report::{CoordinateState, LoadSharing, OneFaceHint};
 use crate::units::Units;
@@ -84,6 +83,10 @@ pub struct HoldReport {
     pub wedging: Option<Wedging>,
     /// The load that is varied, if one is.
     pub load: Option<LoadReport>,
+    /// How much static friction the loads need as they are; absent with a varied load, without friction, and where hinges rub, of
+    /// which each value tried takes many linear programs.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub friction: Option<FrictionNeeded>,
     /// The states of rest, if there is one of which the reactions were decided.
     pub at_rest: Option<AtRest>,
     /// Every state in which it begins to move; empty also where motions without inertia kept them from being
@@ -95,11 +98,14 @@ pub struct HoldReport {
     pub one_face_hints: Vec<OneFaceHint>,
     /// Motions of the joints without inertia; if there are any, `releases` was not sought.
     pub motions_without_inertia: Vec<String>,
+    /// The greatest force of its loads (N): what of a reaction is 10 digits below it is left over by the linear programs.
+    #[serde(skip)]
+    pub(super) force: f64,
     /// Patterns of contact sides that were tried for rest.
     pub rest_patterns: usize,
     /// States of joints and contact sides that were tried for release.
     pub release_patterns: usize,
-    /// Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be solved.
+    /// Patterns of both kinds, and of those of the load, of friction and of wedging, of which a linear program could not be solved.
     pub undecided: usize,
 }
 
@@ -108,12 +114,8 @@ impl HoldReport {
     pub fn is_decided(&self) -> bool {
         let of_load = self.load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
         let of_wedging = self.wedging.as_ref().map_or(0, |wedging| wedging.threshold.undecided);
-        self.holds || self.undecided == of_load + of_wedging
-    }
-
-    /// The greatest magnitude of the reactions at rest (N or N m); 0 if it cannot rest.
-    pub(super) fn greatest_at_rest(&self) -> f64 {
-        self.at_rest.as_ref().map_or(0.0, |rest| greatest(&rest.reactions.ranges()))
+        let of_friction = self.friction.as_ref().map_or(0, |friction| friction.threshold.undecided);
+        self.holds || self.undecided == of_load + of_wedging + of_friction
     }
 
     /// The normal forces at rest, or where it begins to move.
@@ -183,6 +185,19 @@ pub struct LoadReport {
     pub certain_from: Option<f64>,
 }
 
+/// The static friction that the loads need as they are.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct FrictionNeeded {
+    /// From which static friction on they can be held: at least where something has wedged the guides before.
+    pub threshold: Threshold,
+    /// From which value of the same on they are held for certain, since there it cannot slide; nothing if they never are.
+    pub certain_from: Option<f64>,
+    /// By how much all static friction may be divided until it may slide, below 1 where it may already: the inverse of
+    /// `certain_from`. Nothing where that is nothing, or 0: no friction is needed.
+    pub safety_factor: Option<f64>,
+}
+
 /// Whether redundant guides can be wedged: pressed against each other without any load, however hard.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -193,7 +208,7 @@ pub struct Wedging {
     pub threshold: Threshold,
 }
 
-/// The static friction from which on the load alone, however great, is held, or guides wedge.
+/// The static friction from which on the load alone, however great, is held, or all loads as they are, or guides wedge.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Threshold {

@@ -196,8 +196,8 @@ impl Text<'_> {
     }
 
     fn reactions(&mut self, reactions: &Reactions) {
-        // Where nothing presses, what is left of forces is rounding beside those at rest.
-        let scale = greatest(&reactions.ranges()).max(self.report.greatest_at_rest());
+        // Where nothing presses, what is left of forces is rounding beside the loads.
+        let scale = greatest(&reactions.ranges()).max(self.report.force);
         let has_couple = reactions.contacts.iter().any(|contact| contact.couple.is_some());
         let [force, torque] = ["N", "N m"].map(|si| self.report.units.of(si));
         let mut header = vec!["contact".to_owned(), force.title("normal force"), force.title("friction")];

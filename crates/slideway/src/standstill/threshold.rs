@@ -1,4 +1,5 @@
-//! From which static friction on a load alone, however great, is held, or guides that share a load wedge.
+//! From which static friction on a load alone, however great, is held, or all loads as they are, or guides that share a load
+//! wedge.
 //!
 //! The load can grow without bound where the cone of recession of the states of rest reaches in its
 //! direction:
@@ -83,7 +84,8 @@ fn on([constant, slope]: [f64; 2], value: f64) -> f64 {
     (constant + slope * value).max(0.0)
 }
 
-/// The threshold for the varied load of a setup, and from which value on that holds by itself; nothing if none is varied.
+/// The threshold for the varied load of a setup alone, or, if none is varied, for all loads and preloads as they are, and from
+/// which value on that holds by itself.
 ///
 /// # Errors
 /// A parameter that is unknown, or on which other things than friction coefficients depend.
@@ -92,16 +94,15 @@ pub(super) fn threshold(
     options: &HoldOptions,
     setup: &Setup,
     work: Work<'_>,
-) -> Result<Option<(Threshold, Option<f64>)>, Faults> {
-    let Some(load) = &setup.load else { return Ok(None) };
+) -> Result<(Threshold, Option<f64>), Faults> {
     let law = law(model, options, setup)?;
-    let alone = setup.alone(load.forces.clone());
-    let least = least_value(&alone, &law, StateQuestion::rest(Some(0.0)), work.part(0, 2));
+    let loaded = setup.load.as_ref().map_or_else(|| setup.clone(), |load| setup.alone(load.forces.clone()));
+    let least = least_value(&loaded, &law, StateQuestion::rest(Some(0.0)), work.part(0, 2));
     let certain = match least.found {
-        Some(from) => certain_from(&alone, &law, from, work.part(1, 2))?,
+        Some(from) => certain_from(&loaded, &law, from, work.part(1, 2))?,
         None => None,
     };
-    Ok(Some((told(setup, &law, &least), certain)))
+    Ok((told(setup, &law, &least), certain))
 }
 
 /// The threshold from which on guides that share a load wedge; nothing if there are none.
@@ -173,7 +174,7 @@ fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Optio
     }
 }
 
-/// The least value, from `from` on, at which the load alone cannot slide: there it holds by itself. With kinetic friction as
+/// The least value, from `from` on, at which the loads cannot make it slide: there it holds by itself. With kinetic friction as
 /// great as the static one, it slides in some state below. Nothing if that is so at every value tried, up to
 /// [`GREATEST_COEFFICIENT`].
 ///

@@ -219,7 +219,7 @@ impl Branches {
 }
 
 fn is_state(kind: RowKind) -> bool {
-    matches!(kind, RowKind::Solution | RowKind::Boundary | RowKind::PreloadGap)
+    matches!(kind, RowKind::Solution | RowKind::Boundary | RowKind::PreloadGap | RowKind::Rest)
 }
 
 /// Number of contacts with opposite sides, and distance of the forces; none if the one cannot continue the

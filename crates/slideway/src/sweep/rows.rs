@@ -52,6 +52,10 @@ worded! {
         Continuum = "continuum",
         /// A mode of which it cannot be told whether it has a solution.
         Undecided = "undecided",
+        /// A solution that stays at rest.
+        Rest = "rest",
+        /// A corner of the forces with which it stays at rest.
+        RestRange = "rest_range",
     }
 }
 
@@ -80,6 +84,13 @@ worded! {
         HingeUnloaded = "hinge_unloaded",
         /// Beyond it there is no position, or a value that is not allowed; the point has no states itself.
         NotSolved = "not_solved",
+    }
+}
+
+impl RowKind {
+    /// Whether it stays at rest in the state of the row.
+    pub fn rests(self) -> bool {
+        matches!(self, Self::Rest | Self::RestRange)
     }
 }
 

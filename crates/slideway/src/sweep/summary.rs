@@ -18,8 +18,11 @@ pub struct Tally {
     pub rows: u64,
     /// Points by what became of them; inserted ones are left out.
     pub statuses: BTreeMap<PointStatus, u64>,
-    /// Points by their number of solutions; inserted ones are left out.
+    /// Points by their number of solutions; inserted ones are left out, and those of `rests`.
     pub solutions: BTreeMap<u32, u64>,
+    /// Points at which it stays at rest in every state, by what became of them; inserted ones are left out.
+    #[serde(default)]
+    pub rests: BTreeMap<PointStatus, u64>,
     /// Points without a solution because a guided slider tips; inserted ones are left out.
     #[serde(default)]
     pub tipping: u64,
@@ -27,6 +30,14 @@ pub struct Tally {
     pub boundary_rows: u64,
     /// The first point of each kind that was not solved, and why.
     pub refusals: BTreeMap<PointStatus, (u64, String)>,
+}
+
+/// What became of a point.
+#[derive(Clone, Copy, PartialEq)]
+struct Outcome {
+    status: PointStatus,
+    solutions: u32,
+    rests: bool,
 }
 
 /// A share of samples, with an interval that holds the probability with a confidence of 95 %.
@@ -44,9 +55,9 @@ impl Tally {
         self.rows += rows.len() as u64;
         let mut last = None;
         // Points that follow one another and came to the same are counted together.
-        let mut alike: Option<(PointStatus, u32)> = None;
+        let mut alike: Option<Outcome> = None;
         let mut count = 0;
-        for head in &rows.heads {
+        for (row, head) in rows.heads.iter().enumerate() {
             self.boundary_rows += u64::from(head.kind == RowKind::Boundary);
             if last == Some(head.point) {
                 continue;
@@ -58,7 +69,9 @@ impl Tally {
                 continue;
             }
             self.tipping += u64::from(head.status == PointStatus::None && head.rejected > 0);
-            let outcome = Some((head.status, head.solutions));
+            let mut states = rows.heads[row..].iter().take_while(|other| other.point == head.point);
+            let rests = states.all(|state| state.kind.rests());
+            let outcome = Some(Outcome { status: head.status, solutions: head.solutions, rests });
             if outcome != alike {
                 self.count(alike, count);
                 (alike, count) = (outcome, 0);
@@ -71,11 +84,13 @@ impl Tally {
         }
     }
 
-    /// Counts points that came to the same: status and number of solutions.
-    fn count(&mut self, outcome: Option<(PointStatus, u32)>, count: u64) {
-        let Some((status, solutions)) = outcome else { return };
+    /// Counts points that came to the same.
+    fn count(&mut self, outcome: Option<Outcome>, count: u64) {
+        let Some(Outcome { status, solutions, rests }) = outcome else { return };
         *self.statuses.entry(status).or_default() += count;
-        if status.is_solved() {
+        if rests {
+            *self.rests.entry(status).or_default() += count;
+        } else if status.is_solved() {
             *self.solutions.entry(solutions).or_default() += count;
         }
     }

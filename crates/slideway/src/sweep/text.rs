@@ -25,7 +25,12 @@ impl Sweep {
             _ => ("It jams, or a guided slider tips,", Some(AS_BLOCK)),
         };
         let probability = if self.has_branches() { None } else { tally.probability_of_jamming() };
-        let mut sentences = vec![match probability {
+        let rests: u64 = tally.rests.values().sum();
+        let holds = (rests > 0).then(|| match rests {
+            count if count == all => format!("It holds at all {}.", counted(all, "point")),
+            count => format!("It holds at {count} of {}.", counted(all, "point")),
+        });
+        let jams = match probability {
             Some(Probability { share, interval }) => {
                 let [from, to] = interval.map(|end| brief(100.0 * end));
                 format!(
@@ -38,7 +43,10 @@ impl Sweep {
                 count if count == all => format!("{what} at all {}.", counted(all, "point")),
                 count => format!("{what} at {count} of {}.", counted(all, "point")),
             },
-        }];
+        };
+        // Of what holds nobody expects that it jams.
+        let jams = (without > 0 || holds.is_none()).then_some(jams);
+        let mut sentences: Vec<String> = holds.into_iter().chain(jams).collect();
         sentences.extend(advice.map(str::to_owned));
         let several: u64 =
             tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
@@ -101,7 +109,11 @@ impl Page<'_, SweepState> {
             let all = (tally.points - tally.breakpoints).max(1);
             format!("{} %", number(100.0 * count as f64 / all as f64))
         };
+        let rests: u64 = tally.rests.values().sum();
         let mut lines: Vec<(String, u64)> = Vec::new();
+        if rests > 0 {
+            lines.push(("it holds".to_owned(), rests));
+        }
         for (&solutions, &count) in &tally.solutions {
             let what = match solutions {
                 0 => continue,
@@ -128,7 +140,8 @@ impl Page<'_, SweepState> {
                 lines.push((what.to_owned(), count));
             }
         }
-        let continua = tally.with_status(PointStatus::Continuum);
+        let resting = tally.rests.get(&PointStatus::Continuum).copied().unwrap_or(0);
+        let continua = tally.with_status(PointStatus::Continuum) - resting;
         if continua > 0 {
             lines.push(("infinitely many solutions (some of them counted above)".to_owned(), continua));
         }

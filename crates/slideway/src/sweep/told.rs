@@ -23,7 +23,14 @@ pub(super) fn write(report: &SolveReport, plan: &Plan, point: Point<'_>, rows: &
         let inside = !solution.on_boundary
             && !matches!(solution.certificate, CertificateKind::OnBoundary)
             && solution.determinant != 0.0;
-        telling.state(solution, if inside { RowKind::Solution } else { RowKind::Boundary });
+        telling.state(
+            solution,
+            match inside {
+                _ if solution.rests => RowKind::Rest,
+                true => RowKind::Solution,
+                false => RowKind::Boundary,
+            },
+        );
     }
     for state in &report.preload_gap_states {
         telling.state(state, RowKind::PreloadGap);
@@ -85,7 +92,7 @@ impl Telling<'_> {
             &state.pattern,
             RowHead {
                 kind,
-                negative_determinant: (kind == RowKind::Solution || kind == RowKind::PreloadGap)
+                negative_determinant: matches!(kind, RowKind::Solution | RowKind::PreloadGap | RowKind::Rest)
                     .then_some(state.determinant < 0.0),
                 verdict: if self.plan.attainability {
                     state.attainability.verdict
@@ -99,12 +106,13 @@ impl Telling<'_> {
 
     /// One row for each corner; one without numbers if they are not known.
     fn corners(&mut self, continuum: &Continuum) {
+        let kind = if continuum.rests { RowKind::RestRange } else { RowKind::Continuum };
         if continuum.vertices.is_empty() {
-            self.corner(RowKind::Continuum, &continuum.pattern, &[], None);
+            self.corner(kind, &continuum.pattern, &[], None);
         }
         for (index, corner) in continuum.vertices.iter().enumerate() {
             let first = self.rows.numbers.len();
-            self.corner(RowKind::Continuum, &continuum.pattern, corner, continuum.motion.get(index));
+            self.corner(kind, &continuum.pattern, corner, continuum.motion.get(index));
             let columns = &self.plan.columns;
             for held in &continuum.held {
                 let contacts = self.plan.mechanism.contacts.iter();

@@ -45,7 +45,12 @@ fn without_end_zeros(text: &str) -> &str {
 
 /// [`number`], with rounding errors against `scale` shown as 0.
 pub(crate) fn against(value: f64, scale: f64) -> String {
-    if value.abs() <= NOISE * scale { "0".to_owned() } else { number(value) }
+    number(beside(value, scale))
+}
+
+/// A value, but 0 where it is a rounding error beside the greatest of those that it is the sum of.
+pub(crate) fn beside(value: f64, scale: f64) -> f64 {
+    if value.abs() <= NOISE * scale { 0.0 } else { value }
 }
 
 /// Six significant digits, as limits are known to more than other numbers.

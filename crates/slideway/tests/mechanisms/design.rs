@@ -30,7 +30,7 @@ fn against_locking(model: &Model, vary: &str, margin: f64) -> SizeReport {
 }
 
 fn to_hold(load: &str) -> Against {
-    Against::Hold { load: load.to_owned() }
+    Against::Hold { load: Some(load.to_owned()) }
 }
 
 /// The only end at which the margin is just met, and whether it is met above it.

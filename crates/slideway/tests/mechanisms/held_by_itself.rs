@@ -105,7 +105,7 @@ fn ranges_maps_and_sizes_tell_what_holds_only_while_wedged() {
         [(Some(true), true), (Some(true), false)]
     );
     assert_close(sure.from, 0.02 / 1.2, 0.0, 1e-9);
-    let options = SizeOptions::new(x(), 1.0).against(Against::Hold { load: "W".to_owned() });
+    let options = SizeOptions::new(x(), 1.0).against(Against::Hold { load: Some("W".to_owned()) });
     let sized = size(&bracket, &options).unwrap();
     let [met] = sized.met.as_slice() else { panic!("{:?}", sized.met) };
     assert_close(met.from, 0.02 / 1.2, 0.0, 1e-8);

@@ -587,7 +587,7 @@ fn a_disc_rolls_or_slips_down_an_incline(#[case] k: f64) {
         let expected = if rolls { sin / (1.0 + k) } else { sin - mu * cos };
         assert!((along + GRAVITY * expected).abs() < 1e-9, "{along}");
         assert!(!rolls || (turn * 0.1 + along).abs() < 1e-9, "{turn}");
-        let starts = if rolls { "foot: closed, does not slip" } else { "foot: closed, disc slides along" };
+        let starts = if rolls { "foot does not slip" } else { "foot disc slides along" };
         assert!(report.answer().contains(starts), "{}", report.answer());
         assert_eq!(report.every_load_has_one_state, Some(true));
         let held = hold(&Model::parse(&text).unwrap(), &HoldOptions::default()).unwrap();

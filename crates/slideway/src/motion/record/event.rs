@@ -119,14 +119,11 @@ impl Words<'_> {
                 format!("{corner} reaches the face of {}", self.mechanism.joints[joint.index()].name)
             }
             Cause::Lands { contact, speed, energy_lost } => {
-                let lands = format!(
-                    "{} lands with {}",
-                    self.contact(*contact),
-                    self.mechanism.units.of("m/s").brief(*speed)
-                );
+                let speed = self.mechanism.units.of("m/s").brief(*speed);
+                let hits = format!("{} with {speed}", self.hits(*contact));
                 match energy_lost {
-                    Some(energy) => format!("{lands} ({} lost)", self.mechanism.units.of("J").brief(*energy)),
-                    None => lands,
+                    Some(energy) => format!("{hits} ({} lost)", self.mechanism.units.of("J").brief(*energy)),
+                    None => hits,
                 }
             }
             Cause::Stops(joint) => match after {
@@ -183,6 +180,14 @@ impl Words<'_> {
         Some(told)
     }
 
+    /// "parcel hits at wall": a contact may be called after either side of it.
+    fn hits(&self, contact: ContactId) -> String {
+        let slider = self.mechanism.slider(self.mechanism.contacts[contact.index()].joint);
+        let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
+        let body = body.map_or("it", |body| &self.mechanism.bodies[body.index()].name);
+        format!("{body} hits at {}", self.contact(contact))
+    }
+
     /// What differs between two phases, joint by joint.
     fn changes(&self, causes: &[Cause], before: &Phase, after: &Phase) -> Vec<String> {
         let one = |(index, joint): (usize, &JointId)| {
@@ -208,9 +213,9 @@ impl Words<'_> {
                     }
                     // Nothing happens where a joint without friction turns round: the next event tells.
                     let now = stops
-                        || causes
-                            .iter()
-                            .any(|cause| matches!(cause, Cause::Hits { .. } | Cause::Jams { .. }));
+                        || causes.iter().any(|cause| {
+                            matches!(cause, Cause::Hits { .. } | Cause::Lands { .. } | Cause::Jams { .. })
+                        });
                     let reverses = if now { "reverses" } else { "has reversed since the last event" };
                     format!("{name} {reverses}: it {}", self.state("is now", index, *joint, after))
                 }

@@ -1,5 +1,6 @@
 //! Why a motion ends, as a kind and as a sentence.
 
+use super::stick_slip::stick_slip;
 use crate::ids::JointId;
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
@@ -77,8 +78,12 @@ fn finished(history: &History, time: &str) -> String {
     let is_still = history.last.is_still;
     let rest = history.phases.last().filter(|interval| is_still && interval.phase.sticks());
     let Some(rest) = rest else {
-        let what = if is_still { "Nothing moves" } else { "It is still moving" };
-        return format!("{what} at {time}.{}", jams_on_the_way(jams.len()));
+        let jams = jams_on_the_way(jams.len());
+        if is_still {
+            return format!("Nothing moves at {time}.{jams}");
+        }
+        let repeats = stick_slip(history).map_or(String::new(), |words| words + " ");
+        return format!("{repeats}It is still moving at {time}.{jams}");
     };
     let from = history.mechanism.units.of("s").brief(rest.from);
     if jams.last() == Some(&rest.from) {

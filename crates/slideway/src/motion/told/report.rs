@@ -285,6 +285,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
             bodies: mechanism.bodies.len(),
             contacts: mechanism.contacts.len(),
             drives: mechanism.drives.len(),
+            size: mechanism.size,
             units: mechanism.units.clone(),
         },
         contacts: mechanism.contacts.iter().map(|contact| contact.name.to_string()).collect(),

@@ -3,7 +3,7 @@
 use super::log::{LogLine, lines};
 use super::report::{EndKind, EventReport, Named, SimulateReport};
 use super::tree::TreeReport;
-use crate::report::number::{against, number};
+use crate::report::number::{beside, number};
 use crate::report::page::Page;
 use crate::report::{Report, Status, Style, Verdict, count, followed, spaced};
 use crate::units::Unit;
@@ -137,8 +137,11 @@ impl Page<'_, SimulateReport> {
         let greatest = rates.fold(1e-6, f64::max);
         let one = |coordinate: &crate::report::CoordinateState| {
             // What is left of a velocity at rest is only rounding.
-            let rate = if against(coordinate.rate, greatest) == "0" { 0.0 } else { coordinate.rate };
-            crate::report::CoordinateState { rate, ..coordinate.clone() }.in_words(&self.report.model.units)
+            let rate = beside(coordinate.rate, greatest);
+            let size = if coordinate.unit == "m" { self.report.model.size } else { 1.0 };
+            let value = beside(coordinate.value, size);
+            crate::report::CoordinateState { value, rate, ..coordinate.clone() }
+                .in_words(&self.report.model.units)
         };
         let parts: Vec<String> = state.iter().map(one).collect();
         self.line(&format!("{when}: {}", parts.join("; ")));
