@@ -709,7 +709,7 @@ impl FaultKind {
     fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
         Some(match self {
             Self::SharedLoad { .. } => format!(
-                "ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
+                "give them `play` and `loose = true`, and no stiffness: then each face is a contact by itself; or ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
                 face.question("solve")
             ),
             Self::PressFit { .. } => format!(

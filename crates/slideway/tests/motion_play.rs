@@ -84,3 +84,104 @@ fn rattling_ends_in_finite_time() {
     assert_eq!(slides.phase.pattern(&history.mechanism), "+0+0");
     assert!((slides.from - 0.004_600_7).abs() < 2e-6, "{}", slides.from);
 }
+
+/// A block slider with play between the same faces, from the middle of its play; `faces` are further keys of the joint.
+fn loose_block(play: f64, height: f64, faces: &str) -> String {
+    format!(
+        r#"
+        gravity = "9.81 m/s^2"
+        [points]
+        C = [0, 0]
+        H = [0, "{height} m"]
+        [bodies.block]
+        points = ["C", "H"]
+        mass = "2 kg"
+        moment_of_inertia = "0.012 kg m^2"
+        centre_of_mass = "C"
+        [joints.guide]
+        type = "block_slider"
+        block = "block"
+        at = "C"
+        along = "0 deg"
+        length = "0.2 m"
+        height = "0.1 m"
+        mu = 0.3
+        play = "{play} m"
+        loose = true
+        {faces}
+        [coordinates.x]
+        slide = "guide"
+        rate = "0.5 m/s"
+        [loads.pull]
+        type = "force"
+        at = "block.H"
+        magnitude = "30 N"
+        direction = "0 deg"
+        "#
+    )
+}
+
+/// What a loose guide does is what its two faces do that are written by hand, in the middle of whose play the block begins.
+#[test]
+fn a_loose_guide_is_its_two_faces() {
+    for (key, faces) in [("", ""), ("restitution = 0.4", "restitution = 0.4\n")] {
+        let loose = history(&loose_block(2e-3, 0.12, key), 0.2);
+        let middle = block_with_play(2e-3, 0.12)
+            .replace(" m\", \"-0.05 m\"]", " m\", \"-0.05 m - 1 mm\"]")
+            .replace("0.05 m + 0.002 m", "0.05 m + 1 mm")
+            .replace("closed = true", "closed = false")
+            .replace("closed = false\n", &format!("closed = false\n{faces}"))
+            + "[coordinates.y]\ny = \"block.C\"\n[coordinates.turn]\nrotation = \"block\"\n";
+        let written = history(&middle, 0.2);
+        // The flights that are left out at the end are in proportion to the size of the drawing, which has other points.
+        assert!(loose.events.len().abs_diff(written.events.len()) <= 1 && loose.events.len() > 5);
+        for (one, other) in loose.events.iter().zip(&written.events).take(30) {
+            assert!((one.time - other.time).abs() < 1e-12, "{} {}", one.words, other.words);
+        }
+        let names = loose.mechanism.contacts.iter().map(|contact| contact.name.to_string());
+        assert_eq!(
+            names.collect::<Vec<_>>(),
+            ["guide.front.plus", "guide.rear.plus", "guide.front.minus", "guide.rear.minus"]
+        );
+        let ends =
+            [loose, written].map(|history| history.reader().configuration(0.2).unwrap().poses[0].position);
+        assert!((ends[0] - ends[1]).norm() < 1e-9, "{ends:?}");
+    }
+}
+
+/// The drawer on two rails of the gallery, pulled by 40 N against 10 N. Its rails are rigid: the one with less play carries. With
+/// the normal force `N` of its front corner and `-N` of its rear one, the moment about the middle is
+/// `N L - a P + mu B N` where that is the left one, and `N L - a P - mu B N` where it is the right one.
+#[test]
+fn the_rail_with_less_play_carries() {
+    let (length, distance, lever, mu, pull) = (0.4, 0.6, 0.25, 0.3, 40.0);
+    for (rail, plays, sign) in [("left", ["0.2 mm", "0.6 mm"], 1.0), ("right", ["0.6 mm", "0.2 mm"], -1.0)] {
+        let text = slideway::gallery::find("drawer-on-two-rails").unwrap().text;
+        let (text, _) = text.split_once("[drives.pull]").unwrap();
+        let text = text
+            .replace("stiffness = \"k_left\"", "loose = true")
+            .replace("stiffness = \"k_right\"", "loose = true")
+            .replace("play_left = \"0.2 mm\"", &format!("play_left = \"{}\"", plays[0]))
+            .replace("play_right = \"0.6 mm\"", &format!("play_right = \"{}\"", plays[1]))
+            + &format!(
+                "[loads.pull]\ntype = \"force\"\nat = \"drawer.handle\"\nmagnitude = \"{pull} N\"\ndirection = \"0 deg\"\n"
+            );
+        let history = history(&text, 0.5);
+        let normal = lever * pull / (length + sign * mu * distance);
+        let last = history.reader().at(0.5).unwrap();
+        let force = |name: &str| {
+            let contact =
+                history.mechanism.contacts.iter().position(|contact| *contact.name == *name).unwrap();
+            last.contacts[contact].normal_force
+        };
+        for (corner, expected) in [("front.plus", normal), ("rear.minus", normal), ("rear.plus", 0.0)] {
+            let found = force(&format!("{rail}.{corner}"));
+            assert!((found - expected).abs() < 0.01 * normal, "{rail}.{corner} {found} {expected}");
+        }
+        let acceleration = (pull - 10.0 - 2.0 * mu * normal) / 8.0;
+        let expected = 0.3 + 0.5 * acceleration;
+        let found = last.configuration.velocities[0].linear.x;
+        assert!((found - expected).abs() < 0.01, "{found} {expected}");
+        assert!(history.energy_error < 1e-9 * history.energy_scale, "{}", history.energy_error);
+    }
+}

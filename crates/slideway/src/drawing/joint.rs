@@ -132,6 +132,8 @@ pub trait OnLine: SliderKind {
     #[doc(hidden)]
     const PLACE: &'static str = "at";
 }
+/// The kinds that press two faces.
+pub trait TwoFaces: SliderKind {}
 /// The kinds that may lift off.
 pub trait MayLiftOff: SliderKind {}
 
@@ -164,11 +166,11 @@ macro_rules! kinds {
 
 kinds! {
     /// A block in a guide: a joint with two contacts.
-    BlockSlider = Block, "block_slider", 2, Some("stop"); TwoContacts, HasLength, BetweenFaces, OnLine;
+    BlockSlider = Block, "block_slider", 2, Some("stop"); TwoContacts, HasLength, BetweenFaces, OnLine, TwoFaces;
     /// A slider pressed on one side along its whole length: a joint with one contact.
-    GuidedSlider = Guided, "guided_slider", 1, Some("stop"); OneContact, HasLength, BetweenFaces, OnLine;
+    GuidedSlider = Guided, "guided_slider", 1, Some("stop"); OneContact, HasLength, BetweenFaces, OnLine, TwoFaces;
     /// A pin in a slot: a joint with one contact.
-    PinInSlot = Pin, "pin_in_slot", 1, Some("stop"); OneContact, OnLine;
+    PinInSlot = Pin, "pin_in_slot", 1, Some("stop"); OneContact, OnLine, TwoFaces;
     /// A block on a face, which both of its corners may leave: a joint with two contacts.
     BlockOnFace = OnFace, "block_on_face", 2, None; TwoContacts, HasLength, OnLine, MayLiftOff;
     /// A corner on a face, which it may leave: a joint with one contact.
@@ -389,6 +391,14 @@ impl<K: BetweenFaces> SliderBuilder<'_, K> {
     /// The preload's friction acts on the centre line. Default: at the pressed face.
     pub fn centred_preload(self) -> Self {
         self.set("preload_line", quantity::text("centre"))
+    }
+}
+
+impl<K: TwoFaces> SliderBuilder<'_, K> {
+    /// In a motion each face is taken by itself, with this coefficient of restitution, and the block rattles within its
+    /// [`play`](Self::play). Default: it follows the centre line.
+    pub fn loose(self, restitution: impl Into<Quantity>) -> Self {
+        self.set("loose", Quantity::truth(true)).set("restitution", restitution.into())
     }
 }
 

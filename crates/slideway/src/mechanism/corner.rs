@@ -87,7 +87,7 @@ impl Mechanism {
     /// The corners without contact of each body against each face on which it has one.
     pub(crate) fn bare_corners(&self) -> Vec<BareCorner> {
         let faces: Vec<(JointId, &Slider)> =
-            self.sliders().filter(|(_, slider)| self.may_lift_off(slider)).collect();
+            self.sliders().filter(|(_, slider)| self.may_lift_off(slider) && !slider.loose).collect();
         let mut found = Vec::new();
         for (index, &(joint, face)) in faces.iter().enumerate() {
             // A part of a face that another joint has, too, is watched there.

@@ -204,6 +204,7 @@ impl<T: Real> Evaluation<'_, T> {
             apart: self.apart(slider, joint, length),
             sticks: slider.sticks,
             around: slider.around,
+            loose: slider.loose,
             travel: face.or(slider.travel.map(|travel| travel.map(|limit| self.value(limit)))),
             stops: slider.stops.map(|stop| stop.map(|stop| stop.map(|id| self.value(id)))),
             contacts: (first..contacts.len()).map(ContactId).collect(),

@@ -6,6 +6,7 @@
 mod corner;
 mod evaluation;
 mod excess;
+mod loose;
 mod one_sided;
 mod pad;
 mod part;
@@ -159,6 +160,8 @@ pub struct Slider<T = f64> {
     pub sticks: bool,
     /// Whether the block surrounds the guide, so that the opposite faces press.
     pub around: bool,
+    /// Whether the block reaches its faces one by one in a motion, and whether it is one of these faces there.
+    pub loose: bool,
     /// Limits of the displacement (m).
     pub travel: Option<[T; 2]>,
     /// The stops at the least and at the greatest displacement; without, the motion ends there.

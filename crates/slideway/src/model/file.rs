@@ -160,6 +160,8 @@ pub(super) struct SliderTable {
     pub(super) fit: Option<Fit>,
     /// Limits [least, greatest] of the slide displacement.
     pub(super) travel: Option<Components>,
+    /// `true`: `simulate` takes each face by itself, and the block rattles within its `play`. Default: `false`.
+    pub(super) loose: Option<bool>,
     /// What stops the block at the ends of its travel: { restitution = .. } or { stiffness = .., damping = ..
     /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
@@ -237,8 +239,7 @@ pub(super) struct ContactTable {
     /// How far the guide's line is displaced towards +n there (m), which counts where redundant contacts share
     /// a load; may depend on coordinates. Default: 0.
     pub(super) misalignment: Option<Quantity>,
-    /// The part of its closing velocity with which it bounces, which `schema.rs` has.
-    #[cfg_attr(test, schemars(skip))]
+    /// Coefficient of restitution of the faces of a `loose` guide, from 0 to 1. Default: 0.
     pub(super) restitution: Option<Quantity>,
     /// Area in contact, for the bearing pressure: { length = .., width = .. }; a guided slider's has the length of
     /// its pressed face unless it is given.

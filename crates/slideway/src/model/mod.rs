@@ -264,6 +264,8 @@ pub struct Slider {
     pub sticks: bool,
     /// Whether the block surrounds the guide.
     pub around: bool,
+    /// Whether the block reaches its faces one by one in a motion.
+    pub loose: bool,
     /// Limits of the displacement.
     pub travel: Option<[FormulaId; 2]>,
     /// Whether the two points of `along` are the ends of its face.
@@ -335,7 +337,7 @@ pub struct Contact {
     pub play: Option<FormulaId>,
     /// How far the guide's line is displaced there.
     pub misalignment: Option<FormulaId>,
-    /// The part of its closing velocity with which it leaves its face after an impact.
+    /// The part of its closing velocity with which it leaves its face after an impact, if it can leave it.
     pub restitution: Option<FormulaId>,
     /// Its area, for the bearing pressure.
     pub pad: Option<Pad>,

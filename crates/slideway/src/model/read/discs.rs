@@ -37,6 +37,7 @@ impl Reader<'_> {
             touches,
             sticks: self.sticks(discs.sticks, touches, name, span),
             around: false,
+            loose: false,
             travel: None,
             has_ends: false,
             stops: [None; 2],

@@ -6,7 +6,7 @@ use super::super::file::{
 use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
 use super::super::{Along, Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop, Touches};
-use super::{Reader, Wanted};
+use super::{Reader, Varies, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
 use crate::ids::FormulaId;
@@ -84,6 +84,7 @@ impl Reader<'_> {
             SliderKind::Block => self.contacts_of_block(joint, all, name, span),
             SliderKind::Guided | SliderKind::Pin => vec![self.contact(all, name.to_owned(), name, span)],
         };
+        self.check_loose(joint, &contacts, (*opens, name, span));
         let touches = touches(joint);
         let apart = if *opens { self.open(&mut contacts, touches) } else { Vec::new() };
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
@@ -100,11 +101,45 @@ impl Reader<'_> {
             touches,
             sticks: self.sticks(joint.sticks, touches, name, span),
             around: joint.fit == Some(Fit::Around),
+            loose: joint.loose == Some(true),
             travel: self.travel(joint.travel.as_ref(), name),
             has_ends: joint.face.is_some(),
             stops: self.stops(joint, name, span),
             contacts,
             apart,
+        }
+    }
+
+    /// Checks that a guide whose faces are taken one by one has play and nothing that needs both at once, and that no other has
+    /// impacts at its faces.
+    fn check_loose(
+        &mut self,
+        joint: &SliderTable,
+        contacts: &[Contact],
+        (opens, name, span): (bool, &str, &Span),
+    ) {
+        let table = format!("joints.{name}");
+        let any = |has: &dyn Fn(&Contact) -> bool| contacts.iter().any(has);
+        if joint.loose != Some(true) {
+            if !opens && any(&|contact| contact.restitution.is_some()) {
+                self.fault(FaultKind::MissingKey { key: "loose".into(), table }, span);
+            }
+            return;
+        }
+        if any(&|contact| contact.play.is_none()) {
+            self.fault(FaultKind::MissingKey { key: "play".into(), table }, span);
+        }
+        for misalignment in contacts.iter().filter_map(|contact| contact.misalignment) {
+            self.formulas[misalignment.index()].varies = Varies::Never;
+        }
+        let both = [
+            ("stiffness", any(&|contact| contact.stiffness.is_some())),
+            ("preload", any(&|contact| contact.preload != [None; 2])),
+            ("supports", joint.supports.is_some()),
+            ("travel", joint.travel.is_some()),
+        ];
+        for (second, _) in both.into_iter().filter(|(_, is_there)| *is_there) {
+            self.fault(FaultKind::Both { owner: name.to_owned(), first: "loose = true", second }, span);
         }
     }
 

@@ -13,7 +13,8 @@ use super::{BOUNDARY, MOST_STATES};
 use crate::configuration::{Configuration, Velocity};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::influence::{ContactFriction, Influence};
-use crate::pattern::{HingePhase, JointPhase, Phase};
+use crate::mechanism::Contact;
+use crate::pattern::{ContactPhase, HingePhase, JointPhase, Phase};
 use crate::progress::Work;
 use nalgebra::{DVector, Vector2};
 
@@ -105,11 +106,14 @@ impl<'s> Impulses<'s> {
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
         let wanted =
             jumps.iter().zip(&self.speeds).map(|(jump, speed)| if *jump == 0.0 { 0.0 } else { jump / speed });
+        let sides = |contact: &Contact| {
+            if contact.opens { ContactPhase::CLOSED.to_vec() } else { PRESSED.to_vec() }
+        };
         Question {
             outputs: &self.outputs,
             wanted: wanted.collect(),
             has_preload: false,
-            sides: vec![PRESSED.to_vec(); self.outputs.columns[0].ncols()],
+            sides: self.instant.mechanism.contacts.iter().map(sides).collect(),
             stopped,
             opposes: None,
             pushed: Vec::new(),

@@ -11,9 +11,10 @@
 
 use super::elastic::verdict_on;
 use super::impulse::AT_REST;
+use super::jam::{Jam, jam_within};
 use super::joints::TOUCHES;
 use super::parts::SAME;
-use super::rules::{Continuation, Continuations, EventInstant};
+use super::rules::{Continuation, Continuations, EventInstant, HaltingImpulse};
 use super::sticking::phase_state;
 use super::successors::{Successor, Successors};
 use super::{DeterminedForces, MOST_STATES, PhaseBound, Standing};
@@ -185,6 +186,30 @@ pub(super) fn tipping(event: &EventInstant<'_>) -> Result<Vec<JointId>, Faults> 
         joints.extend(found.tipping.into_iter().flat_map(|tipping| tipping.joints));
     }
     Ok(joints)
+}
+
+/// The impulse without collision that ends a jam: of those with the fewest contacts that it lifts off, that with the greatest
+/// margin.
+///
+/// # Errors
+/// As [`jam`](super::jam()), for each set of contacts that touch.
+pub(super) fn jam(event: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
+    let rests = |number: usize| event.sign_of(number) == 0.0;
+    let (apart, sets) = sets_of_open(event)?;
+    for left in sets {
+        let touching = Touching::new(event.mechanism, &apart, &left);
+        let found = match jam_within(&touching.mechanism, event.configuration, (&rests, event.work)) {
+            Err(_) if touching.is_redundant(event.configuration) => continue,
+            found => found?,
+        };
+        let Jam::Stops(impulses) = found else { continue };
+        let impulse = impulses.into_iter().next();
+        return Ok(impulse.map(|impulse| HaltingImpulse {
+            velocities: impulse.after.velocities,
+            energy_lost: impulse.energy_lost,
+        }));
+    }
+    Ok(None)
 }
 
 /// The contacts that are apart at an instant, and the sets of those that touch which may be open, too.

@@ -45,7 +45,9 @@ impl Decisions for Thorough {
     }
 
     fn jam(&mut self, instant: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Faults> {
-        instant.mechanism.check_no_one_sided("a jam in a motion")?;
+        if instant.mechanism.has_one_sided() {
+            return super::lifting::jam(instant);
+        }
         let rests = |number: usize| instant.sign_of(number) == 0.0;
         let found = jam_within(instant.mechanism, instant.configuration, (&rests, instant.work))?;
         let super::Jam::Stops(impulses) = found else { return Ok(None) };

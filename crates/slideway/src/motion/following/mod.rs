@@ -49,6 +49,7 @@ pub fn simulate_with(
 ) -> Result<History, Faults> {
     check(options)?;
     mechanism.check_no_press_fit("a motion in time")?;
+    let mechanism = &mechanism.with_loose_faces()?;
     mechanism.check_one_sided_in_excess()?;
     if mechanism.friction_circles.iter().any(|circle| circle.radius > 0.0) {
         mechanism.check_no_one_sided("a motion with friction in hinges")?;

@@ -23,7 +23,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::kinetics::Reaction;
 use crate::mechanism::Mechanism;
-use crate::motion::decision::assessment::Assessment;
+use crate::motion::decision::assessment::{Assessment, PRESSED};
 use crate::motion::decision::impulse::{AT_REST, Impulses, jumped};
 use crate::motion::decision::instant::Instant;
 use crate::motion::decision::joints::TOUCHES;
@@ -31,7 +31,7 @@ use crate::motion::decision::lifting::{Touching, least_flight, subsets};
 use crate::motion::decision::parts::SAME;
 use crate::motion::moving::energy::kinetic;
 use crate::motion::options::ImpactLaw;
-use crate::pattern::{ContactPhase, JointPhase};
+use crate::pattern::JointPhase;
 use crate::progress::Work;
 use nalgebra::DVector;
 
@@ -367,8 +367,8 @@ impl Impact<'_> {
             .collect();
         let mut question = impulses.question(&vec![0.0; velocities.len()], stopped);
         for contact in touching.mechanism.one_sided() {
-            if !self.resting.contains(&touching.number(contact)) {
-                question.sides[contact.index()] = ContactPhase::CLOSED.to_vec();
+            if self.resting.contains(&touching.number(contact)) {
+                question.sides[contact.index()] = PRESSED.to_vec();
             }
         }
         let mut all: Vec<Option<Assessment>> = vec![None];
