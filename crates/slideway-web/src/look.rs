@@ -17,7 +17,7 @@ use slideway::standstill::HoldReport;
 use slideway::warning::{ranges_at_middle, warnings};
 use slideway_pictures::drawing::svg::{Colours, write};
 use slideway_pictures::drawing::{Held, Sheet, title};
-use slideway_pictures::page::{at_rest, reasons, rest_part, solve_parts};
+use slideway_pictures::page::{reasons, rest_part, solve_parts};
 
 /// The look of a state on the page: its quantities, drawings and answer.
 #[derive(Debug, Serialize)]
@@ -116,9 +116,8 @@ pub(crate) fn look(
     let most = drawn.most.unwrap_or(f64::INFINITY);
     let held = drawn.held.map(Held::from).or_else(|| first_held(asked, &file, &state, most, callback));
     let (sheets, held) = state.drawn(held, most);
-    let State { mechanism, configuration, solved } = &state;
+    let State { mechanism, configuration, solved, rest } = &state;
     let coordinates = coordinates_of(&model, mechanism, configuration)?;
-    let rest = if solved.is_ok() { None } else { at_rest(&model, true, callback).ok() };
     Ok(Look {
         title: line(&title(mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),

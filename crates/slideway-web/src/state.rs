@@ -12,7 +12,9 @@ use slideway::model::Model;
 use slideway::progress::Callback;
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
-use slideway_pictures::drawing::{Held, Sheet, pieces};
+use slideway::standstill::HoldReport;
+use slideway_pictures::drawing::{Forces, Held, Sheet, pieces};
+use slideway_pictures::page::at_rest;
 
 /// A state of a model.
 pub(crate) struct State {
@@ -21,6 +23,8 @@ pub(crate) struct State {
     pub(crate) configuration: Configuration,
     /// Its solutions, or why the question has no answer.
     pub(crate) solved: Result<SolveReport, Faults>,
+    /// Whether it holds where that question has no answer; nothing where this one has none either.
+    pub(crate) rest: Option<HoldReport>,
 }
 
 impl State {
@@ -35,18 +39,23 @@ impl State {
             Ok(configuration) => (configuration, solve_with(model, &options, callback)),
             Err(faults) => (Configuration::drawing(&mechanism), Err(faults)),
         };
-        Ok(Self { mechanism, configuration, solved })
+        let rest = if solved.is_ok() { None } else { at_rest(model, true, callback).ok() };
+        Ok(Self { mechanism, configuration, solved, rest })
     }
 
     /// Its drawings, and what those of the next state keep of them; `held` is what they keep of those before. The first
     /// are not wider than `most` drawing units.
     pub(crate) fn drawn(&self, held: Option<Held>, most: f64) -> (Vec<Sheet>, Option<Held>) {
-        let report = self.solved.as_ref().ok();
-        let sheets = pieces(&self.mechanism, &self.configuration, report, held.as_ref(), most);
-        let has_solutions = self
-            .solved
-            .as_ref()
-            .is_ok_and(|report| !report.solutions.is_empty() || !report.preload_gap_states.is_empty());
+        let in_motion = self.solved.as_ref().ok().map(Forces::InMotion);
+        let forces = in_motion.or_else(|| self.rest.as_ref().map(Forces::AtRest));
+        let sheets = pieces(&self.mechanism, &self.configuration, forces, held.as_ref(), most);
+        let has_solutions = match forces {
+            Some(Forces::InMotion(report)) => {
+                !report.solutions.is_empty() || !report.preload_gap_states.is_empty()
+            }
+            Some(Forces::AtRest(report)) => report.at_rest.is_some(),
+            None => false,
+        };
         // What shows why it jams has no scale of forces, and its friction cones need a place that no other drawing does.
         if held.is_some() && !has_solutions {
             return (sheets, held);

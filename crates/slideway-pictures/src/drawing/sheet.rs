@@ -162,6 +162,15 @@ pub fn sheet_at_rest(mechanism: &Mechanism, configuration: &Configuration, repor
     Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description)
 }
 
+/// Of which answer the forces are drawn.
+#[derive(Debug, Clone, Copy)]
+pub enum Forces<'r> {
+    /// Those of each solution.
+    InMotion(&'r SolveReport),
+    /// Those that hold it at rest.
+    AtRest(&'r HoldReport),
+}
+
 /// Draws each panel of a sheet by itself, with its caption, and at the end the key to the colours, for a page
 /// that has the title and the state itself. Where something is held, solutions are drawn to its scale and in
 /// its place; else no drawing is wider than `most` drawing units, as far as the mechanism can then be seen.
@@ -169,14 +178,14 @@ pub fn sheet_at_rest(mechanism: &Mechanism, configuration: &Configuration, repor
 /// ```
 /// use slideway::model::{Model, Settings};
 /// use slideway::{configuration::Configuration, mechanism::Mechanism, solve::solve};
-/// use slideway_pictures::drawing::{Held, Sheet, pieces};
+/// use slideway_pictures::drawing::{Forces, Held, Sheet, pieces};
 ///
 /// let file = Model::parse(slideway::gallery::find("drawer").expect("in the gallery").text)?;
 /// let drawn = |mu: &str, held: Option<&Held>| -> Result<Vec<Sheet>, slideway::fault::Faults> {
 ///     let model = file.with(&Settings::default().parameter("mu", mu))?;
 ///     let mechanism = Mechanism::new(&model)?;
 ///     let configuration = Configuration::new(&mechanism)?;
-///     Ok(pieces(&mechanism, &configuration, Some(&solve(&model)?), held, f64::INFINITY))
+///     Ok(pieces(&mechanism, &configuration, Some(Forces::InMotion(&solve(&model)?)), held, f64::INFINITY))
 /// };
 /// // The mechanism itself, its solution, and the key.
 /// let held = drawn("0.3", None)?[1].held;
@@ -187,10 +196,15 @@ pub fn sheet_at_rest(mechanism: &Mechanism, configuration: &Configuration, repor
 pub fn pieces(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    report: Option<&SolveReport>,
+    forces: Option<Forces<'_>>,
     held: Option<&Held>,
     most: f64,
 ) -> Vec<Sheet> {
+    let (report, rest) = match forces {
+        Some(Forces::InMotion(report)) => (Some(report), None),
+        Some(Forces::AtRest(report)) => (None, report.at_rest.as_ref()),
+        None => (None, None),
+    };
     let mechanism = &in_units_of(report, mechanism, configuration);
     // Arrows grow little where it is narrow, and each way by steps.
     let (longest_held, growth) =
@@ -199,7 +213,7 @@ pub fn pieces(
         let view = view(mechanism, configuration, room);
         let longest_force = held.and_then(|held| held.longest_force);
         let by_itself = Drawn::by_itself(mechanism, configuration, &view);
-        let drawn = Drawn { report, longest_force, longest_held, ..by_itself };
+        let drawn = Drawn { report, rest, longest_force, longest_held, ..by_itself };
         let panels = drawn.panels(Shown::All).unwrap_or_default();
         let (title, lines, forces_on) = (title(mechanism), Vec::new(), forces_on(mechanism));
         Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held, room)

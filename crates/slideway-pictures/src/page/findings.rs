@@ -2,7 +2,7 @@
 
 use super::{Figure, Page, to_html};
 use crate::coordinate::NotFinite;
-use crate::drawing::{Sheet, pieces, title};
+use crate::drawing::{Forces, Sheet, pieces, title};
 use crate::plot::{self, limits_figure, to_svg};
 use crate::theme::{DARK, LIGHT};
 use slideway::configuration::Configuration;
@@ -59,13 +59,16 @@ impl Findings {
         };
         let answer =
             solve_with(model, &SolveOptions::default(), &mut look).map_err(|faults| reasons(&faults));
-        let (title, drawings) = (
-            title(&mechanism),
-            pieces(&mechanism, &configuration, answer.as_ref().ok(), None, f64::INFINITY),
-        );
+        let rest = at_rest(model, answer.is_err(), &mut look);
+        let forces = match (&answer, &rest) {
+            (Ok(report), _) => Some(Forces::InMotion(report)),
+            (Err(_), Ok(report)) => Some(Forces::AtRest(report)),
+            (Err(_), Err(_)) => None,
+        };
+        let drawings = pieces(&mechanism, &configuration, forces, None, f64::INFINITY);
+        let title = title(&mechanism);
         let limits = varied(model, wanted, &mut look)?;
         let efficiency = efficiency(model, &mut look);
-        let rest = at_rest(model, answer.is_err(), &mut look);
         let limits = limits.filter(|_| is_whole);
         let at_middle = at_middle(model)?;
         Ok(limits.map(|limits| Self { title, at_middle, drawings, answer, efficiency, rest, limits }))
