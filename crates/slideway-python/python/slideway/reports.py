@@ -92,6 +92,7 @@ __all__ = [
     "Figure",
     "Finding",
     "FlutterDamping",
+    "FrictionNeeded",
     "Frictionless",
     "FromRest",
     "GapRange",
@@ -453,7 +454,8 @@ MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force"
 
 - `"locking"`: The factor by which kinetic friction may grow before there is no solution.
 - `"self_locking"`: The factor by which static friction may grow before a load is held however great it is.
-- `"hold"`: The factor by which static friction may be smaller while a load is held however great it is.
+- `"hold"`: The factor by which static friction may be smaller while all loads are held as they are, or one
+however great it is.
 - `"effort"`: Not a factor but the greatest effort of a drive, or of all (N or N m).
 - `"normal_force"`: Not a factor but the greatest normal force of a contact, or of all (N).
 - `"pressure"`: Not a factor but the greatest bearing pressure of a contact, or of all that have a pad (Pa).
@@ -1747,6 +1749,20 @@ class FlutterDamping(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class FrictionNeeded(Record):
+    """The static friction that the loads need as they are."""
+
+    threshold: Threshold
+    """From which static friction on they can be held: at least where something has wedged the guides before."""
+    certain_from: float | None
+    """From which value of the same on they are held for certain, since there it cannot slide; nothing if they
+    never are."""
+    safety_factor: float | None
+    """By how much all static friction may be divided until it may slide, below 1 where it may already: the
+    inverse of `certain_from`. Nothing where that is nothing, or 0: no friction is needed."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Frictionless(Record):
     """The efforts without friction."""
 
@@ -1848,7 +1864,7 @@ class HingeRange(Record):
 class HoldReport(_mixins.HoldReport, Report):
     """Whether a mechanism stays at rest, under which loads, and how it begins to move."""
 
-    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None, "one_face_hints": ()}
+    _absent = {"steps_from_drawing": None, "sharing": None, "wedging": None, "friction": None, "one_face_hints": ()}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -1875,6 +1891,9 @@ class HoldReport(_mixins.HoldReport, Report):
     """Whether redundant guides can be wedged; absent if no constraint is redundant."""
     load: LoadReport | None
     """The load that is varied, if one is."""
+    friction: FrictionNeeded | None
+    """How much static friction the loads need as they are; absent with a varied load, without friction, and
+    where hinges rub, of which each value tried takes many linear programs."""
     at_rest: AtRest | None
     """The states of rest, if there is one of which the reactions were decided."""
     releases: tuple[Release, ...]
@@ -1890,8 +1909,8 @@ class HoldReport(_mixins.HoldReport, Report):
     release_patterns: int
     """States of joints and contact sides that were tried for release."""
     undecided: int
-    """Patterns of both kinds, and of those of the load and of wedging, of which a linear program could not be
-    solved."""
+    """Patterns of both kinds, and of those of the load, of friction and of wedging, of which a linear program
+    could not be solved."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2819,7 +2838,7 @@ class SizeReport(_mixins.SizeReport, Report):
     against: MarginKind
     """Which margin is meant."""
     load: str | None
-    """The load, drive or contact that it concerns; absent against locking, and where it concerns all."""
+    """The load, drive or contact that it concerns; absent against locking, and where it concerns all of them."""
     margin: float
     """The wanted margin; against an effort, normal force, bearing pressure or efficiency the limit that it has
     to keep."""
@@ -3075,7 +3094,9 @@ class Tally(Record):
     statuses: Mapping[PointStatus, int]
     """Points by what became of them; inserted ones are left out."""
     solutions: Mapping[int, int]
-    """Points by their number of solutions; inserted ones are left out."""
+    """Points by their number of solutions; inserted ones are left out, and those of `rests`."""
+    rests: Mapping[PointStatus, int]
+    """Points at which it stays at rest in every state, by what became of them; inserted ones are left out."""
     tipping: int
     """Points without a solution because a guided slider tips; inserted ones are left out."""
     boundary_rows: int
@@ -3108,7 +3129,8 @@ class Theme(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Threshold(Record):
-    """The static friction from which on the load alone, however great, is held, or guides wedge."""
+    """The static friction from which on the load alone, however great, is held, or all loads as they are, or
+    guides wedge."""
 
     varied: str
     """What is varied: "static friction" for a factor on every static coefficient, or the name of a parameter."""
