@@ -239,6 +239,7 @@ pub enum SliderKind {
 
 /// A sliding joint.
 #[derive(Debug, Clone)]
+#[expect(clippy::struct_excessive_bools, reason = "independent properties")]
 pub struct Slider {
     /// Which of the three kinds.
     pub kind: SliderKind,

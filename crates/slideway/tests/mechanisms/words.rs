@@ -21,6 +21,7 @@ fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
         length: 1.0,
         height,
         around: height < 0.0,
+        loose: false,
         travel: None,
         stops: [None; 2],
         contacts: Vec::new(),
