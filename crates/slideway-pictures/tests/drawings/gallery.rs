@@ -6,8 +6,8 @@ use slideway::model::Settings;
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{
-    Bounds, Class, ContactStates, Element, Point, Scene, SceneOptions, Shape, Sheet, Shown, Text, View,
-    pieces, scene, sheet,
+    Bounds, Class, ContactStates, Element, Forces, Point, Scene, SceneOptions, Shape, Sheet, Shown, Text,
+    View, pieces, scene, sheet,
 };
 use slideway_pictures::theme::{DARK, LIGHT};
 use std::iter::once;
@@ -58,7 +58,7 @@ fn everything_is_within_the_view_box() {
         for sheet in once(sheet).chain(&pieces(
             &case.mechanism,
             &case.configuration,
-            case.report.as_ref(),
+            case.report.as_ref().map(Forces::InMotion),
             None,
             f64::INFINITY,
         )) {

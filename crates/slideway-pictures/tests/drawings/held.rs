@@ -2,7 +2,7 @@
 
 use crate::Case;
 use slideway::model::Settings;
-use slideway_pictures::drawing::{Class, Held, Shape, Sheet, pieces};
+use slideway_pictures::drawing::{Class, Forces, Held, Shape, Sheet, pieces};
 
 /// The drawing of the only solution of the drawer, and its greatest normal force (N).
 fn drawer(mu: &str, held: Option<&Held>) -> (Sheet, f64) {
@@ -15,7 +15,8 @@ fn drawer_within(mu: &str, held: Option<&Held>, most: f64) -> (Sheet, f64) {
     let case = Case::new(slideway::gallery::find("drawer").unwrap().text, &settings);
     let report = case.report.as_ref().unwrap();
     let forces = report.solutions[0].contacts.iter().map(|contact| contact.normal_force.abs());
-    let sheet = pieces(&case.mechanism, &case.configuration, Some(report), held, most).remove(1);
+    let sheet =
+        pieces(&case.mechanism, &case.configuration, Some(Forces::InMotion(report)), held, most).remove(1);
     (sheet, forces.fold(0.0, f64::max))
 }
 
@@ -79,7 +80,15 @@ fn drawings_are_as_narrow_as_is_asked_for() {
     const PHONE: f64 = 440.0;
     for model in slideway::gallery::MODELS {
         let case = Case::gallery(model.name);
-        let drawn = |most| pieces(&case.mechanism, &case.configuration, case.report.as_ref(), None, most);
+        let drawn = |most| {
+            pieces(
+                &case.mechanism,
+                &case.configuration,
+                case.report.as_ref().map(Forces::InMotion),
+                None,
+                most,
+            )
+        };
         // The labels of this one need more.
         let most = if model.name == "telescopic-boom" { 475.0 } else { PHONE };
         for sheet in drawn(PHONE) {

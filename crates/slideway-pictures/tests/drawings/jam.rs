@@ -3,7 +3,7 @@
 use crate::Case;
 use slideway::model::Settings;
 use slideway::solve::locking;
-use slideway_pictures::drawing::{Bounds, Class, Point, Shape, Sheet, Shown, pieces, sheet};
+use slideway_pictures::drawing::{Bounds, Class, Forces, Point, Shape, Sheet, Shown, pieces, sheet};
 
 fn drawn(name: &str, parameters: &[(&str, &str)]) -> Sheet {
     let settings =
@@ -77,7 +77,13 @@ fn wide_cones_do_not_make_the_picture_wider() {
     for mu in ["0.7", "2", "20"] {
         let settings = Settings::default().parameter("mu", mu);
         let case = Case::new(slideway::gallery::find("drawer").unwrap().text, &settings);
-        let jam = &pieces(&case.mechanism, &case.configuration, case.report.as_ref(), None, f64::INFINITY)[1];
+        let jam = &pieces(
+            &case.mechanism,
+            &case.configuration,
+            case.report.as_ref().map(Forces::InMotion),
+            None,
+            f64::INFINITY,
+        )[1];
         let is_cone = |class| matches!(class, Class::Cone | Class::Overlap);
         let [cones, others] = [true, false].map(|wanted| {
             let elements = jam.scene.elements.iter().filter(|element| is_cone(element.class) == wanted);
