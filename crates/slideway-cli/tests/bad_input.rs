@@ -112,7 +112,7 @@ refused! {
     open_standard_output: ["draw", DRAWER, "--open", "--output", "-"];
     size_empty_range: ["size", DRAWER, "--vary", "L=1 m..1 m", "--margin", "2"];
     size_coordinate_without_range: ["size", DRAWER, "--vary", "x", "--margin", "2"];
-    size_without_load: ["size", KLEPP, "--vary", "mu_1", "--margin", "2", "--against", "hold"];
+    size_without_load: ["size", KLEPP, "--vary", "mu_1", "--margin", "2", "--against", "self-locking"];
     size_with_idle_load: ["size", DRAWER, "--vary", "L", "--margin", "2", "--load", "push"];
     size_unknown_load: [
         "size", DRAWER, "--vary", "L", "--margin", "2", "--against", "self-locking", "--load", "pusch"

@@ -6,7 +6,8 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 }
 
 /// The candidates most similar to `name`, best first: those that differ only in case, otherwise those a few
-/// edits away, before others those with as many letters, as letters are swapped more often than forgotten.
+/// edits away, before others those that begin with it, then those with as many letters, as letters are swapped more often than
+/// forgotten.
 ///
 /// ```
 /// assert_eq!(slideway_modes::names::all_nearest("colums", ["columns", "rows"].into_iter()), ["columns"]);
@@ -19,7 +20,10 @@ pub fn all_nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) ->
         .map(|candidate| (strsim::damerau_levenshtein(&lower, &candidate.to_lowercase()), candidate))
         .filter(|(distance, _)| *distance <= allowed)
         .collect();
-    alike.sort_by_key(|(distance, candidate)| (*distance, candidate.chars().count().abs_diff(length)));
+    alike.sort_by_key(|(distance, candidate)| {
+        let begins = candidate.to_lowercase().starts_with(&lower);
+        (*distance, !begins, candidate.chars().count().abs_diff(length))
+    });
     let best = alike.first().map(|(distance, _)| *distance);
     alike.into_iter().take_while(|(distance, _)| Some(*distance) == best).map(|(_, name)| name).collect()
 }

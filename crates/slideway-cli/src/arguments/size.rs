@@ -19,7 +19,7 @@ Examples:
   slideway size drawer.toml --vary L --min-efficiency 70%
   slideway size drawer.toml --vary L --max-normal-force 25N
   slideway size ladder.toml --vary climbed --margin 1.2 --against hold
-  slideway size bracket-on-pole.toml --vary x --margin 1.5 --load W \
+  slideway size bracket-on-pole.toml --vary x --margin 1.5 --load W \\
     --against hold
   slideway size cam-follower.toml --vary phi --margin 2 --load cam \\
     --against self-locking
