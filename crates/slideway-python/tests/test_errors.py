@@ -72,7 +72,7 @@ def test_hints_name_what_python_has() -> None:
     refused = {
         "at rest": lambda: drawer.with_(rate={"x": 0}).solve(),
         "unused load": lambda: drawer.size("mu", margin=2, load="resistance"),
-        "load needed": lambda: Model.gallery("klepp-2002").size("mu_1", margin=2, against="hold"),
+        "load needed": lambda: Model.gallery("klepp-2002").size("mu_1", margin=2, against="self-locking"),
         "no samples": lambda: drawer.sweep(mu="normal(0.3, 0.05)"),
         "a number of values": lambda: drawer.sweep(samples=10, mu="0..1:11"),
         "no time": lambda: drawer.simulate(0),
