@@ -104,7 +104,7 @@ test("the strip shows how contacts at rest start, and does not take a continuum 
   assert.match(await page.textContent("#verdict"), /^∞ /);
   assert.equal(seen.starts[0], "it holds");
   assert.match(seen.starts[1], /foot .*head /);
-  assert.match(seen.words, /from 0.1 to 0.931\d+ infinitely many, it holds; from 0.931\d+ to 1 1 solution, foot: /);
+  assert.match(seen.words, /from 0.1 to 0.931\d+ infinitely many, it holds; from 0.931\d+ to 1 1 solution, it starts to move: foot /);
   await close(page);
 });
 
