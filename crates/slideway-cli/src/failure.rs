@@ -228,7 +228,8 @@ impl Failure {
     /// Returns what to do about it, if there is anything to say.
     fn hint(&self) -> Option<String> {
         match self {
-            Self::NotFound { gallery_name: Some(name), .. } => Some(format!(
+            Self::NotFound { gallery_name: Some(name), .. }
+            | Self::UnknownTemplate { model: Some(name), .. } => Some(format!(
                 "`{name}` is a model of the gallery: `slideway models {name} > {name}.toml` writes it to a file"
             )),
             Self::NoProblem { .. } => {
@@ -257,11 +258,8 @@ impl Failure {
             }
             Self::TooManyRows { .. } => Some("choose a longer --step".to_owned()),
             Self::SeveralMotions => Some("choose one of them with --branch".to_owned()),
-            Self::UnknownTemplate { model: Some(model), .. } => Some(format!(
-                "`{model}` is a model of the gallery: `slideway models {model} > {model}.toml` writes it to a file"
-            )),
-            Self::NotFound { nearest: Some(nearest), .. } => Some(format!("did you mean `{nearest}`?")),
-            Self::UnknownModel { nearest: Some(nearest), .. }
+            Self::NotFound { nearest: Some(nearest), .. }
+            | Self::UnknownModel { nearest: Some(nearest), .. }
             | Self::UnknownTemplate { nearest: Some(nearest), .. } => {
                 Some(format!("did you mean `{nearest}`?"))
             }

@@ -13,34 +13,39 @@ fn block_with_play(play: f64, height: f64) -> String {
              length = \"0.2 m\"\nmu = 0.3\nclosed = {closed}\n"
         )
     };
+    let points = format!(
+        "LA = [\"-0.2 m\", \"-0.05 m\"]\nLB = [\"0.7 m\", \"-0.05 m\"]\n\
+         UA = [\"-0.2 m\", \"0.05 m + {play} m\"]\nUB = [\"0.7 m\", \"0.05 m + {play} m\"]"
+    );
+    let faces = face("lower", ["LA", "LB"], -0.05, true) + &face("upper", ["UB", "UA"], 0.05, false);
+    pulled_block(height, &points, &faces, "x = \"block.C\"")
+}
+
+/// A block of 2 kg with these further points and these joints, which begins with 0.5 m/s along this coordinate and is pulled by
+/// 30 N at a height above its middle (m).
+fn pulled_block(height: f64, points: &str, joints: &str, coordinate: &str) -> String {
     format!(
         r#"
         gravity = "9.81 m/s^2"
         [points]
         C = [0, 0]
         H = [0, "{height} m"]
-        LA = ["-0.2 m", "-0.05 m"]
-        LB = ["0.7 m", "-0.05 m"]
-        UA = ["-0.2 m", "0.05 m + {play} m"]
-        UB = ["0.7 m", "0.05 m + {play} m"]
+        {points}
         [bodies.block]
         points = ["C", "H"]
         mass = "2 kg"
         moment_of_inertia = "0.012 kg m^2"
         centre_of_mass = "C"
-        {}
-        {}
+        {joints}
         [coordinates.x]
-        x = "block.C"
+        {coordinate}
         rate = "0.5 m/s"
         [loads.pull]
         type = "force"
         at = "block.H"
         magnitude = "30 N"
         direction = "0 deg"
-        "#,
-        face("lower", ["LA", "LB"], -0.05, true),
-        face("upper", ["UB", "UA"], 0.05, false),
+        "#
     )
 }
 
@@ -87,17 +92,8 @@ fn rattling_ends_in_finite_time() {
 
 /// A block slider with play between the same faces, from the middle of its play; `faces` are further keys of the joint.
 fn loose_block(play: f64, height: f64, faces: &str) -> String {
-    format!(
+    let guide = format!(
         r#"
-        gravity = "9.81 m/s^2"
-        [points]
-        C = [0, 0]
-        H = [0, "{height} m"]
-        [bodies.block]
-        points = ["C", "H"]
-        mass = "2 kg"
-        moment_of_inertia = "0.012 kg m^2"
-        centre_of_mass = "C"
         [joints.guide]
         type = "block_slider"
         block = "block"
@@ -108,17 +104,9 @@ fn loose_block(play: f64, height: f64, faces: &str) -> String {
         mu = 0.3
         play = "{play} m"
         loose = true
-        {faces}
-        [coordinates.x]
-        slide = "guide"
-        rate = "0.5 m/s"
-        [loads.pull]
-        type = "force"
-        at = "block.H"
-        magnitude = "30 N"
-        direction = "0 deg"
-        "#
-    )
+        {faces}"#
+    );
+    pulled_block(height, "", &guide, "slide = \"guide\"")
 }
 
 /// What a loose guide does is what its two faces do that are written by hand, in the middle of whose play the block begins.

@@ -165,14 +165,14 @@ pub(crate) fn hold_within(
     let setup = Setup::new(model, options, work)?;
     let rest_patterns = check_states(&setup, MOST_STATES)?;
     let nominal = setup.load.as_ref().map_or(1.0, |load| load.nominal);
-    let [loads, sharings] = [setup.load.is_some(), setup.shared.is_some()].map(usize::from);
-    let part = |index| work.part(index, 2 + loads + sharings);
+    let sharings = usize::from(setup.shared.is_some());
+    let part = |index| work.part(index, 3 + sharings);
     let (rest, is_held) = rest::at_rest(&setup, nominal, part(0));
     let load = load_report(model, options, &setup, part(1))?;
     let friction =
-        if setup.load.is_none() { friction_needed(model, options, &setup, part(0))? } else { None };
-    let wedging = threshold::wedging(model, options, &setup, part(1 + loads))?;
-    let beginning = Beginning::new(&setup, is_held, part(1 + loads + sharings));
+        if setup.load.is_none() { friction_needed(model, options, &setup, part(1))? } else { None };
+    let wedging = threshold::wedging(model, options, &setup, part(2))?;
+    let beginning = Beginning::new(&setup, is_held, part(2 + sharings));
     let original = Mechanism::new(model)?;
     let of_load = load.as_ref().map_or(0, |load| load.undecided + load.threshold.undecided);
     let of_wedging = wedging.as_ref().map_or(0, |threshold| threshold.undecided);

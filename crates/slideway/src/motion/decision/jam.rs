@@ -5,6 +5,7 @@ use super::assessment::Assessment;
 use super::impulse::{AT_REST, Impulses};
 use super::instant::Instant;
 use super::outputs::Group;
+use super::rules::HaltingImpulse;
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::JointId;
@@ -40,6 +41,12 @@ pub struct Impulse {
     /// The velocities of the sliding joints and hinges with friction afterwards (m/s), those of hinges in sizes of the
     /// mechanism.
     pub(super) velocities: Vec<f64>,
+}
+
+impl From<Impulse> for HaltingImpulse {
+    fn from(impulse: Impulse) -> Self {
+        Self { velocities: impulse.after.velocities, energy_lost: impulse.energy_lost }
+    }
 }
 
 /// All impulses that can end a jam.

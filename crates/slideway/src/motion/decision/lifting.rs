@@ -203,11 +203,7 @@ pub(super) fn jam(event: &EventInstant<'_>) -> Result<Option<HaltingImpulse>, Fa
             found => found?,
         };
         let Jam::Stops(impulses) = found else { continue };
-        let impulse = impulses.into_iter().next();
-        return Ok(impulse.map(|impulse| HaltingImpulse {
-            velocities: impulse.after.velocities,
-            energy_lost: impulse.energy_lost,
-        }));
+        return Ok(impulses.into_iter().next().map(HaltingImpulse::from));
     }
     Ok(None)
 }

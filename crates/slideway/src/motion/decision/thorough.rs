@@ -53,10 +53,7 @@ impl Decisions for Thorough {
         let super::Jam::Stops(impulses) = found else { return Ok(None) };
         let blocked = super::continuations(instant)?.blocked;
         let stops = |impulse: &super::Impulse| blocked.is_empty() || blocked.contains(&impulse.wedged);
-        Ok(impulses.into_iter().find(stops).map(|impulse| HaltingImpulse {
-            velocities: impulse.after.velocities,
-            energy_lost: impulse.energy_lost,
-        }))
+        Ok(impulses.into_iter().find(stops).map(HaltingImpulse::from))
     }
 
     fn sticking_margin(
