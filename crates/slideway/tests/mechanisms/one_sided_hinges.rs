@@ -7,7 +7,7 @@
 
 use crate::answers::{report_on, report_with};
 use crate::one_sided::{assert_states, fault};
-use crate::one_sided_systems::{Contact, Hinge, State, System, amax, many, random};
+use crate::one_sided_systems::{Contact, Hinge, State, System, amax, condition, many, random};
 use nalgebra::{DMatrix, DVector, Matrix2, Matrix4, Vector2};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -159,6 +159,7 @@ impl System {
             let (matrix, right) = self.equations(&open, true, &sides);
             let smooth = self.equations(&open, false, &sides).0.determinant();
             let of_contacts = matrix.determinant() / smooth;
+            let condition = condition(&matrix);
             if of_contacts.abs() < 1e-4 {
                 return None;
             }
@@ -210,7 +211,8 @@ impl System {
                     return None;
                 }
                 found.push(w);
-                let (state, slack) = self.state(&unknowns, (&open, &sides), of_contacts * of_hinges)?;
+                let ratios = [of_contacts * of_hinges, condition / of_hinges.abs().min(1.0)];
+                let (state, slack) = self.state(&unknowns, (&open, &sides), ratios)?;
                 if slack > 0.0 {
                     states.push(state);
                 }

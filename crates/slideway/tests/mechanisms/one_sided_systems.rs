@@ -121,6 +121,8 @@ pub(crate) struct State {
     pub(crate) efforts: Vec<f64>,
     /// The determinant of the pattern over that without friction.
     pub(crate) oriented: f64,
+    /// The condition number of its equations.
+    pub(crate) condition: f64,
 }
 
 impl Contact {
@@ -489,8 +491,9 @@ impl System {
             if determinant.abs() < 1e-4 * smooth.abs() {
                 return None;
             }
+            let ratios = [determinant / smooth, condition(&matrix)];
             let unknowns = matrix.lu().solve(&right)?;
-            let (state, slack) = self.state(&unknowns, (&open, &sides), determinant / smooth)?;
+            let (state, slack) = self.state(&unknowns, (&open, &sides), ratios)?;
             if slack > 0.0 {
                 states.push(state);
             }
@@ -503,7 +506,7 @@ impl System {
         &self,
         unknowns: &DVector<f64>,
         (open, sides): (&[bool], &[f64]),
-        oriented: f64,
+        [oriented, condition]: [f64; 2],
     ) -> Option<(State, f64)> {
         let (bodies, hinges, contacts) = (3 * self.bodies.len(), 2 * self.hinges.len(), self.contacts.len());
         let normal: Vec<f64> = (0..contacts).map(|k| unknowns[bodies + hinges + k]).collect();
@@ -523,9 +526,21 @@ impl System {
             accelerations: unknowns.rows(0, bodies).iter().copied().collect(),
             efforts: (bodies + hinges + contacts..unknowns.len()).map(|at| unknowns[at]).collect(),
             oriented,
+            condition,
         };
         (least.abs() >= 1e-6).then_some((state, least))
     }
+}
+
+/// The greatest singular value of a matrix over its least.
+pub(crate) fn condition(matrix: &DMatrix<f64>) -> f64 {
+    let values = matrix.singular_values();
+    values.max() / values.min()
+}
+
+/// The greatest residual that rounding leaves of forces from equations with this condition number.
+pub(crate) fn rounding(condition: f64) -> f64 {
+    100.0 * f64::EPSILON * condition
 }
 
 pub(crate) fn amax(values: &[f64]) -> f64 {
