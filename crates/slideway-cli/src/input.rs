@@ -51,6 +51,13 @@ impl Input {
         }
     }
 
+    /// It for a question that varies what these texts begin with, as in `mu=0..1`.
+    pub(crate) fn varying<'a>(mut self, texts: impl IntoIterator<Item = &'a String>) -> Self {
+        let names = texts.into_iter().map(|text| text.split('=').next().unwrap_or(text).trim());
+        self.settings = names.fold(self.settings, |settings, name| settings.varying(name));
+        self
+    }
+
     /// Returns the model with its settings, and writes its warnings to standard error.
     ///
     /// # Errors

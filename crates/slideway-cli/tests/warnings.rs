@@ -47,6 +47,7 @@ told! {
     great_friction: 1 ["solve", DRAWER, "--set", "mu=30"];
     nothing_presses: 0 ["size", "models/drawer.toml", "--set", "Q=0 N", "--vary", "L=200 mm..400 mm", "--margin", "2"];
     range_at_middle: 0 ["limits", DRAWER, "--set", "mu=0.14..0.26", "--vary", "a=100 mm..200 mm"];
+    varied_value: 0 ["sweep", "models/frictional-oscillator.toml", "--set", "mu=0.275", "--vary", "mu_static=0.3..0.5:3"];
     strict: 2 ["solve", DRAWER, "--set", "depth=450", "--strict"];
     strict_range: 2 ["limits", DRAWER, "--vary", "depth=200 mm..0.45", "--strict"];
     strict_without_warnings: 0 ["solve", DRAWER, "--strict"];

@@ -25,7 +25,7 @@ pub(crate) fn drive(arguments: &DriveArguments, output: &Output) -> Result<Outco
         return Err(Failure::NoLine);
     }
     let output = files.answer()?;
-    let input = Input::read(&arguments.model, output.color())?;
+    let input = Input::read(&arguments.model, output.color())?.varying(&arguments.vary);
     let model = input.model()?;
     let vary = arguments.vary.as_deref().map(|vary| input.vary(&model, vary)).transpose()?;
     let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());

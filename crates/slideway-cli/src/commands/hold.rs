@@ -13,7 +13,7 @@ use slideway::standstill::{self, HoldOptions};
 /// Says whether a mechanism stays at rest, under which loads, and how it begins to move.
 pub(crate) fn hold(arguments: &HoldArguments, output: &Output) -> Result<Outcome, Failure> {
     let output = Files::new(output, &arguments.destination, Some(&arguments.model.file)).answer()?;
-    let input = Input::read(&arguments.model, output.color())?;
+    let input = Input::read(&arguments.model, output.color())?.varying(&arguments.vary);
     let model = input.model_at_rest()?;
     let mut options = HoldOptions::default().hold_drives(arguments.drives == Drives::Hold);
     options.load.clone_from(&arguments.load);

@@ -17,7 +17,7 @@ pub(crate) fn limits(arguments: &LimitsArguments, output: &Output) -> Result<Out
     let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
     let plot = picture::beside(&arguments.plot, &mut files)?;
     let output = files.answer()?;
-    let input = Input::read(&arguments.model, output.color())?;
+    let input = Input::read(&arguments.model, output.color())?.varying(&arguments.vary);
     let model = input.model()?;
     let options = LimitsOptions::new(input.wanted(&model, arguments.vary.as_deref())?)
         .max_reaction(arguments.max_reaction)

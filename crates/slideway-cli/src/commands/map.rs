@@ -20,7 +20,8 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
     let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
     let named_after = (arguments.model.file.as_path(), "-map.svg");
     let document = Document::new(&mut files, &arguments.destination, named_after, arguments.open.open)?;
-    let input = Input::read(&arguments.model, output.color())?;
+    let input =
+        Input::read(&arguments.model, output.color())?.varying(arguments.x.iter().chain(&arguments.y));
     let model = input.model()?;
     let [width, height] = arguments.size;
     let (Some(x), Some(y)) = (&arguments.x, &arguments.y) else {

@@ -22,7 +22,7 @@ pub(crate) fn report(arguments: &ReportArguments, output: &Output) -> Result<Out
     let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
     let named_after = (arguments.model.file.as_path(), ENDINGS[0]);
     let document = Document::new(&mut files, &arguments.destination, named_after, arguments.open.open)?;
-    let input = Input::read(&arguments.model, output.color())?;
+    let input = Input::read(&arguments.model, output.color())?.varying(&arguments.vary);
     let model = input.model()?;
     let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());
     let wanted = arguments.vary.iter().map(|vary| input.vary(&model, vary)).collect::<Result<Vec<_>, _>>()?;

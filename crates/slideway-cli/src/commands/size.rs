@@ -16,7 +16,7 @@ pub(crate) fn size(arguments: &SizeArguments, output: &Output) -> Result<Outcome
     let mut files = Files::new(output, &arguments.destination, Some(&arguments.model.file));
     let plot = picture::beside(&arguments.plot, &mut files)?;
     let output = files.answer()?;
-    let input = Input::read(&arguments.model, output.color())?;
+    let input = Input::read(&arguments.model, output.color())?.varying(&arguments.vary);
     let model = input.model()?;
     let vary = input.wanted(&model, arguments.vary.as_deref())?;
     let mut watch = Watch::new(arguments.time.time_limit).whole_or_none(output.color());

@@ -1,10 +1,12 @@
 //! Arithmetic modulo primes below `2^62`: eliminations whose numbers do not grow.
 
 use dashu_int::{IBig, Sign, UBig, Word};
+use std::sync::{PoisonError, RwLock};
 
-/// So many primes are known when the program is compiled; further ones are sought when they are needed.
+/// So many primes are known when the program is compiled; further ones are sought when they are needed first.
 const KNOWN: usize = 16;
 const PRIMES: [u64; KNOWN] = known_primes();
+static FURTHER: RwLock<Vec<u64>> = RwLock::new(Vec::new());
 
 /// Residues modulo a prime.
 #[derive(Debug, Clone, Copy)]
@@ -34,12 +36,7 @@ pub(super) struct Reduced {
 impl Field {
     /// The fields of all primes below `2^62`, from the largest.
     pub(super) fn all() -> impl Iterator<Item = Self> {
-        let mut last = 0;
-        let further = std::iter::from_fn(move || {
-            last = prime_below(if last == 0 { PRIMES[KNOWN - 1] } else { last });
-            Some(last)
-        });
-        PRIMES.into_iter().chain(further).map(|prime| Self { prime })
+        (0..).map(|index| Self { prime: prime(index) })
     }
 
     /// The residue of an integer.
@@ -55,11 +52,16 @@ impl Field {
     }
 
     fn residue_of_words(self, words: &[Word]) -> u64 {
-        words.iter().rev().fold(0, |rest, &word| {
-            let extended = (u128::from(rest) << Word::BITS) | u128::from(word);
-            u64::try_from(extended)
-                .map_or_else(|_| remainder(extended, self.prime), |short| short % self.prime)
-        })
+        let Some((&last, others)) = words.split_last() else { return 0 };
+        let shift = self.multiplier(remainder(1 << Word::BITS, self.prime));
+        let last = last % self.prime;
+        others.iter().rev().fold(last, |rest, &word| self.plus(shift.times(rest), word % self.prime))
+    }
+
+    fn plus(self, one: u64, other: u64) -> u64 {
+        // Both are below 2^62.
+        let sum = one + other;
+        if sum >= self.prime { sum - self.prime } else { sum }
     }
 
     pub(super) fn minus(self, one: u64, other: u64) -> u64 {
@@ -160,6 +162,23 @@ impl Combined {
         };
         self.values.into_iter().map(signed).collect()
     }
+}
+
+/// The prime below `2^62` of this place, from the largest.
+fn prime(index: usize) -> u64 {
+    if let Some(prime) = PRIMES.get(index) {
+        return *prime;
+    }
+    let index = index - KNOWN;
+    let known = FURTHER.read().unwrap_or_else(PoisonError::into_inner).get(index).copied();
+    known.unwrap_or_else(|| {
+        let mut further = FURTHER.write().unwrap_or_else(PoisonError::into_inner);
+        while further.len() <= index {
+            let last = further.last().copied().unwrap_or(PRIMES[KNOWN - 1]);
+            further.push(prime_below(last));
+        }
+        further[index]
+    })
 }
 
 const fn known_primes() -> [u64; KNOWN] {

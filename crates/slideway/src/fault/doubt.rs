@@ -43,6 +43,10 @@ pub enum Doubt {
         "{name} is known from {from} to {to}: where one value is needed, this takes the middle, {middle}"
     )]
     RangeAtMiddle { name: String, from: String, to: String, middle: String },
+    #[error(
+        "the friction {name} is varied: its own value, {value}, is not allowed beside the others, and {taken} stands for it"
+    )]
+    VariedValue { name: String, value: String, taken: String },
 }
 
 impl Doubt {
@@ -63,6 +67,7 @@ impl Doubt {
             Self::NothingPresses => "nothing_presses",
             Self::BareCorner { .. } => "bare_corner",
             Self::RangeAtMiddle { .. } => "range_at_middle",
+            Self::VariedValue { .. } => "varied_value",
         }
     }
 
@@ -100,6 +105,7 @@ impl Doubt {
                 "`{}` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`",
                 face.question("solve")
             ),
+            Self::VariedValue { name, .. } => format!("a static coefficient is not below its kinetic one: set `{name}`, too"),
             Self::GreatGravity { .. } => {
                 "look for a wrong or missing unit: `9.81 m/s^2` and `9810 mm/s^2` are that of the Earth".to_owned()
             }

@@ -134,10 +134,12 @@ impl Model {
         if !self.is_itself_friction(parameter) {
             return None;
         }
-        let values = self.constants().ok()?;
+        let mut faults = Faults::default();
+        let values = self.allowed_values::<f64>(&[], &mut faults);
+        faults.or(()).ok()?;
         let mut range = [0.0, f64::INFINITY];
         let is_it = |id| self.same_as(id).any(|same| same == self.parameters[wanted].value);
-        let bound = |id: FormulaId| (!self.uses(id, wanted)).then(|| values[id.index()]);
+        let bound = |id: FormulaId| (!self.uses(id, wanted)).then(|| values[id.index()]).flatten();
         for [kinetic, at_rest] in self.pairs_of_coefficients() {
             if is_it(kinetic) {
                 range[1] = bound(at_rest).map_or(range[1], |most| most.min(range[1]));
@@ -375,7 +377,11 @@ impl Model {
 
     /// The values of all formulas that have one without the motion; the parameters in `given` have theirs
     /// from there.
-    fn allowed_values<T: Real>(&self, given: &[(usize, T)], faults: &mut Faults) -> Vec<Option<T>> {
+    pub(super) fn allowed_values<T: Real>(
+        &self,
+        given: &[(usize, T)],
+        faults: &mut Faults,
+    ) -> Vec<Option<T>> {
         let mut parameters = vec![T::zero(); self.parameters.len()];
         let mut values = vec![None; self.formulas.len()];
         for &(index, value) in given {

@@ -39,7 +39,7 @@ impl Model {
     /// As there.
     pub(crate) fn varied_with(&self, values: &[(Setting, Arc<str>)]) -> Result<Self, Faults> {
         let changes = values.iter().map(|(setting, text)| (setting, Source::Argument(text.clone())));
-        let mut model = self.changed(changes)?;
+        let mut model = self.changed(changes, &[])?;
         let fits = |model: &Self| -> Vec<String> {
             let faces = model.contacts().filter(|contact| contact.face.is_some());
             faces.map(|contact| contact.place().to_owned()).collect()

@@ -4,8 +4,9 @@ use super::formula::{Allowed, Formula, Origin, Varies};
 use super::range::{Parsed, parse_value};
 use super::{Coordinate, Model, Value};
 use crate::expression::{Dimension, Expression, parse};
-use crate::fault::{Fault, FaultKind, Faults, Place, Source, nearest};
+use crate::fault::{Doubt, Fault, FaultKind, Faults, Place, Source, nearest};
 use crate::ids::FormulaId;
+use crate::units::precise;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -17,6 +18,9 @@ const TIME: &str = "time";
 #[serde(transparent)]
 pub struct Settings {
     entries: Vec<Setting>,
+    /// What has no value of its own.
+    #[serde(skip)]
+    varied: Vec<String>,
 }
 
 /// One change.
@@ -83,6 +87,14 @@ impl Settings {
         self.with(Setting::new(SettingKind::Time, TIME, value))
     }
 
+    /// Says that the parameter of this name is going to be varied, so that its own value does not matter: where a friction
+    /// coefficient is not allowed beside the others, the nearest one that is allowed takes its place, with a warning.
+    #[must_use]
+    pub fn varying(mut self, name: &str) -> Self {
+        self.varied.push(name.to_owned());
+        self
+    }
+
     /// Adds a change.
     #[must_use]
     pub fn with(mut self, setting: Setting) -> Self {
@@ -104,15 +116,17 @@ impl Model {
     /// parameters, each with its place in the text of the setting.
     pub fn with(&self, settings: &Settings) -> Result<Self, Faults> {
         let numbered = settings.entries().iter().enumerate();
-        let mut model = self.changed(numbered.map(|(index, setting)| (setting, Source::Setting(index))))?;
+        let changes = numbered.map(|(index, setting)| (setting, Source::Setting(index)));
+        let mut model = self.changed(changes, &settings.varied)?;
         model.doubts.extend(self.bare_settings(settings));
         Ok(model)
     }
 
-    /// It with these changes, each with the text in which its faults have their places.
+    /// It with these changes, each with the text in which its faults have their places, and with [`Settings::varying`].
     pub(super) fn changed<'a>(
         &self,
         changes: impl Iterator<Item = (&'a Setting, Source)>,
+        varied: &[String],
     ) -> Result<Self, Faults> {
         let mut model = self.clone();
         let mut faults = Faults::default();
@@ -122,7 +136,29 @@ impl Model {
             }
         }
         faults.append(model.check(true));
-        faults.without_consequences().or(model)
+        let faults = faults.without_consequences();
+        if !faults.is_empty() && varied.iter().any(|name| model.allow(name)) && model.check(true).is_empty() {
+            return Ok(model);
+        }
+        faults.or(model)
+    }
+
+    /// Gives a friction coefficient the allowed value that is nearest to its own; false if its own is allowed.
+    fn allow(&mut self, name: &str) -> bool {
+        let Some([least, greatest]) = self.friction_range(name) else { return false };
+        let (Some(parameter), values) = (
+            self.parameters.iter().find(|other| &*other.name == name),
+            self.allowed_values(&[], &mut Faults::default()),
+        ) else {
+            return false;
+        };
+        let (id, value) = (parameter.value, values[parameter.value.index()]);
+        let Some(value) = value.filter(|value| !(least..=greatest).contains(value)) else { return false };
+        let setting = Setting::new(SettingKind::Parameter, name, value.clamp(least, greatest));
+        let [own, taken] = [value, value.clamp(least, greatest)].map(precise);
+        let doubt = Doubt::VariedValue { name: name.to_owned(), value: own, taken };
+        self.doubts.push(Fault::new(FaultKind::Doubt(doubt), self.formula(id).origin.place()));
+        self.change(&setting, &Source::Argument(Arc::from(setting.text()))).is_ok()
     }
 
     /// The model with all rates of its coordinates reversed, formulas of parameters among them.

@@ -177,3 +177,20 @@ fn laws_without_sense_are_refused() {
     assert!(matches!(fault(&named), FaultKind::InvalidName { .. }));
     assert!(drawer().with(&parameters(&[("c", "-5 s/m")])).is_ok_and(|model| solve(&model).is_err()));
 }
+
+/// Of a static coefficient that is varied the value of the file does not matter beside a greater kinetic one: the least allowed
+/// stands for it, and a sweep has the rows of a file in which it is allowed.
+#[test]
+fn what_is_varied_has_no_value_of_its_own() {
+    let oscillator = gallery::find("frictional-oscillator").unwrap();
+    let model = Model::parse(oscillator.text).unwrap();
+    let more = Settings::default().parameter("mu", 0.275);
+    assert!(model.with(&more).is_err());
+    let varied = model.with(&more.clone().varying("mu_static")).unwrap();
+    let other = model.with(&more.parameter("mu_static", 0.275)).unwrap();
+    assert_eq!(varied.constants().unwrap(), other.constants().unwrap());
+    // What is allowed keeps its value, and what is no coefficient is no help.
+    let same = model.with(&Settings::default().varying("mu_static")).unwrap();
+    assert_eq!(same.constants().unwrap(), model.constants().unwrap());
+    assert!(model.with(&Settings::default().parameter("mu", 0.275).varying("k")).is_err());
+}

@@ -158,8 +158,7 @@ impl System {
                 (0..contacts).map(|k| if is_other(k) && !open[k] { -1.0 } else { 1.0 }).collect();
             let (matrix, right) = self.equations(&open, true, &sides);
             let smooth = self.equations(&open, false, &sides).0.determinant();
-            let of_contacts = matrix.determinant() / smooth;
-            let condition = condition(&matrix);
+            let (of_contacts, condition) = (matrix.determinant() / smooth, condition(&matrix));
             if of_contacts.abs() < 1e-4 {
                 return None;
             }

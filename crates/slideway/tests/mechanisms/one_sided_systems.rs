@@ -538,7 +538,8 @@ pub(crate) fn condition(matrix: &DMatrix<f64>) -> f64 {
     values.max() / values.min()
 }
 
-/// The greatest residual that rounding leaves of forces from equations with this condition number.
+/// The greatest residual that rounding leaves of forces from equations with this condition number. They are built on those without
+/// friction, so that the greater one of a pattern and of the base, which a report tells, counts.
 pub(crate) fn rounding(condition: f64) -> f64 {
     100.0 * f64::EPSILON * condition
 }

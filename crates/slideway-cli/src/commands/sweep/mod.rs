@@ -44,7 +44,7 @@ fn table(model: &ModelArguments, arguments: &SweepArguments, output: &Output) ->
     let mut files = Files::new(output, &arguments.destination, Some(&model.file));
     let picture = picture::beside(&arguments.plot, &mut files)?;
     let destination = files.answer()?;
-    let input = Input::read(model, output.color())?;
+    let input = Input::read(model, output.color())?.varying(&arguments.vary);
     let model = input.model()?;
     if arguments.vary.is_empty() {
         return Err(input.nothing_varied(&model, "--vary NAME=FROM..TO:COUNT"));

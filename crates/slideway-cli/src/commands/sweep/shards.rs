@@ -34,7 +34,7 @@ pub(super) fn write(
     let path = shard_path(folder, shard);
     // Whether it may be written is asked once it is known what is there.
     Files::new(output, &arguments.destination, Some(&model.file)).claim(&path)?;
-    let input = Input::read(model, output.color())?;
+    let input = Input::read(model, output.color())?.varying(&arguments.vary);
     let model = input.model()?;
     let options = arguments.options().map_err(|faults| input.refused(faults))?;
     input.warn(options.points.warnings(&model))?;
