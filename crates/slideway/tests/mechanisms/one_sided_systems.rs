@@ -538,10 +538,10 @@ pub(crate) fn condition(matrix: &DMatrix<f64>) -> f64 {
     values.max() / values.min()
 }
 
-/// The greatest residual that rounding leaves of forces from equations with this condition number. They are built on those without
-/// friction, so that the greater one of a pattern and of the base, which a report tells, counts.
-pub(crate) fn rounding(condition: f64) -> f64 {
-    100.0 * f64::EPSILON * condition
+/// The greatest residual that rounding leaves of forces that are built on those without friction: the loss of both equations, by
+/// their condition numbers.
+pub(crate) fn rounding(of_pattern: f64, of_base: f64) -> f64 {
+    (f64::EPSILON * of_pattern * of_base).max(1e-12)
 }
 
 pub(crate) fn amax(values: &[f64]) -> f64 {
