@@ -44,8 +44,8 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
     };
     let known = report.as_ref();
     let is_asked = shown == Shown::All && (known.is_some() || refused.is_some()) && asks_for_rest(known);
-    let mut look = |progress| watch.look(progress);
-    let rest = is_asked.then(|| at_rest(&model, known, &mut look).ok()).flatten();
+    let mut rest = || at_rest(&model, known, &mut |progress| watch.look(progress)).ok();
+    let rest = if is_asked { rest() } else { None };
     let halt = watch.finish();
     let forces = Forces::of(known, rest.as_ref());
     let Some(sheet) = sheet(&mechanism, &configuration, forces, shown) else {

@@ -15,7 +15,7 @@ use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{CoordinateState, Report, SolveReport};
-use slideway::standstill::HoldReport;
+use slideway::standstill::{AtRest, HoldReport};
 use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is

@@ -302,18 +302,6 @@ impl SolveReport {
     }
 }
 
-impl Solution {
-    /// The greatest acceleration of a body, of which that of a coordinate with this unit is made: what is 13 digits below it is
-    /// rounding.
-    pub(crate) fn greatest_acceleration(&self, unit: &str) -> f64 {
-        let of_body = |body: &Body| match unit {
-            "rad/s^2" => body.angular_acceleration.abs(),
-            _ => body.acceleration[0].hypot(body.acceleration[1]),
-        };
-        self.bodies.iter().map(of_body).fold(0.0, f64::max)
-    }
-}
-
 /// One solution, or one state of a preload gap.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
