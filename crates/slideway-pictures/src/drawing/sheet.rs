@@ -144,7 +144,9 @@ pub fn sheet(
     let drawn = Drawn { report, rest, ..Drawn::by_itself(mechanism, configuration, &view) };
     let panels = drawn.panels(shown)?;
     let lines = match forces {
-        Some(Forces::InMotion(report)) => vec![state_line(&report.state, &mechanism.units), answer(report)],
+        Some(Forces::InMotion(report)) => {
+            vec![state_line(&report.state, &mechanism.units), with_minus_signs(&answer(report))]
+        }
         Some(Forces::AtRest(report)) => vec![with_minus_signs(&format!("At rest: {}", report.answer()))],
         None => Vec::new(),
     };
