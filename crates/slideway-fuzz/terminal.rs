@@ -41,7 +41,9 @@ fn told(model: &Model) {
     assert_inert(&answer.csv(), &[]);
     let Ok(mechanism) = Mechanism::new(model) else { return };
     let Ok(configuration) = Configuration::new(&mechanism) else { return };
-    let Some(sheet) = sheet(&mechanism, &configuration, Some(Forces::InMotion(&answer)), Shown::All) else { return };
+    let Some(sheet) = sheet(&mechanism, &configuration, Some(Forces::InMotion(&answer)), Shown::All) else {
+        return;
+    };
     let title = model.title.as_deref().unwrap_or_default();
     if let Ok(Some(findings)) = Findings::of(model, Vec::new(), &mut |_| ControlFlow::Continue(())) {
         let settings = Settings::default();

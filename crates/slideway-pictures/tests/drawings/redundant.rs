@@ -198,7 +198,10 @@ fn all_pads_of_a_block_are_drawn() {
     let text = format!("{upper}supports = {{ between = {{ at = \"50 mm\", play = \"0.1 mm\" }} }}\n{rest}")
         .replace("stiffness = \"k\"\n", "");
     let case = Case::new(&text, &Settings::default());
-    let sheet = |shown| sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), shown).unwrap();
+    let sheet = |shown| {
+        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), shown)
+            .unwrap()
+    };
     for shown in [Shown::Mechanism, Shown::Solution(1)] {
         assert_eq!(of_class(&sheet(shown).scene, Class::Pad).count(), 6);
     }

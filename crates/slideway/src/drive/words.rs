@@ -209,7 +209,9 @@ fn needs_several(report: &DriveReport, direction: &DriveDirection) -> String {
     match unstable.as_slice() {
         [] => needs,
         [one] => format!("{needs} Another state, at {}, is unstable.", efforts(&[one], "")),
-        several => format!("{needs} {} other states, at {}, are unstable.", several.len(), efforts(several, " and ")),
+        several => {
+            format!("{needs} {} other states, at {}, are unstable.", several.len(), efforts(several, " and "))
+        }
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport, SpeedChange,
-    Status, Verdict,
+    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
+    SpeedChange, Status, Verdict,
 };
 use crate::units::brief;
 
@@ -396,7 +396,8 @@ impl SolveReport {
         let again =
             again.map_or_else(String::new, |again| format!("; it moves again from {} times", brief(again)));
         // What only lies on its face is stopped by its own motion.
-        let lies = self.solutions.iter().any(|solution| solution.joints.iter().any(|joint| joint.face.is_some()));
+        let lies =
+            self.solutions.iter().any(|solution| solution.joints.iter().any(|joint| joint.face.is_some()));
         match margins.tips.as_slice() {
             [] if lies && self.model.drives == 0 => {
                 format!("It would catch and stop at once (jam) from {at}{again}.")
