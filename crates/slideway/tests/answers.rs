@@ -188,11 +188,11 @@ fn hold_answers() {
         ),
         (
             held(SASH, &[], Some("gravity")),
-            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. Wedged by a knock it would hold any `gravity` from mu_s = 0.6667 (now 0.3); do not rely on it.",
+            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. Only wedged by a knock it would hold any `gravity` from mu_s = 0.6667 (now 0.3).",
         ),
         (
             held(SASH, &wedged, Some("gravity")),
-            "It may hold, or it may start to slide: do not rely on it. Wedged by a knock it holds any `gravity` from mu_s = 0.6667 (now 0.7); do not rely on it.",
+            "It may hold, or it may start to slide: do not rely on it. Only wedged by a knock it holds any `gravity` from mu_s = 0.6667 (now 0.7).",
         ),
         (
             held(GUIDED_TIPS, &[], None),
@@ -204,7 +204,7 @@ fn hold_answers() {
         ),
         (
             held("telescopic-boom", &[], Some("cylinder_1")),
-            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. Wedged by a knock it would hold any `cylinder_1` from mu = 4 (now 0.1); do not rely on it.",
+            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. Only wedged by a knock it would hold any `cylinder_1` from mu = 4 (now 0.1).",
         ),
         (
             held("telescopic-boom", &[], None),

@@ -262,11 +262,11 @@ fn locks(load: &LoadReport, holds_all: bool) -> String {
         };
     }
     let holds = if load.self_locking { "holds" } else { "would hold" };
-    let by_itself = match load.certain_from {
-        Some(certain) => format!("without a knock only from {}", value_of(known, certain)),
-        None => "do not rely on it".to_owned(),
+    let (wedged, by_itself) = match load.certain_from {
+        Some(certain) => ("Wedged", format!("; without a knock only from {}", value_of(known, certain))),
+        None => ("Only wedged", String::new()),
     };
-    format!("Wedged by a knock it {holds} any `{name}` {}; {by_itself}.", at(first))
+    format!("{wedged} by a knock it {holds} any `{name}` {}{by_itself}.", at(first))
 }
 
 /// That no friction was found with which a load is held, however great.
