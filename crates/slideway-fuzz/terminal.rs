@@ -9,7 +9,7 @@ use slideway::printable;
 use slideway::raw_problem::RawProblem;
 use slideway::report::Style;
 use slideway::{check, gallery, solve};
-use slideway_pictures::drawing::{Shown, sheet, svg};
+use slideway_pictures::drawing::{Forces, Shown, sheet, svg};
 use slideway_pictures::page::{Findings, Origin};
 use std::ops::ControlFlow;
 
@@ -41,7 +41,9 @@ fn told(model: &Model) {
     assert_inert(&answer.csv(), &[]);
     let Ok(mechanism) = Mechanism::new(model) else { return };
     let Ok(configuration) = Configuration::new(&mechanism) else { return };
-    let Some(sheet) = sheet(&mechanism, &configuration, Some(&answer), Shown::All) else { return };
+    let Some(sheet) = sheet(&mechanism, &configuration, Some(Forces::InMotion(&answer)), Shown::All) else {
+        return;
+    };
     let title = model.title.as_deref().unwrap_or_default();
     if let Ok(Some(findings)) = Findings::of(model, Vec::new(), &mut |_| ControlFlow::Continue(())) {
         let settings = Settings::default();

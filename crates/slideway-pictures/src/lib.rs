@@ -28,7 +28,8 @@ pub(crate) fn printed(words: &str) -> String {
     let mut printed = words.replace('`', "");
     for (typed, exponent) in [("^2", "²"), ("^3", "³")] {
         let parts: Vec<&str> = printed.split(typed).collect();
-        let goes_on = |part: &str| part.starts_with(|next: char| next.is_ascii_digit() || next == '.');
+        let is_digit = |next: char| next.is_ascii_digit();
+        let goes_on = |part: &str| part.strip_prefix('.').unwrap_or(part).starts_with(is_digit);
         let joined =
             parts[1..].iter().map(|part| [if goes_on(part) { typed } else { exponent }, part].concat());
         printed = parts[0].to_owned() + &joined.collect::<String>();
@@ -59,6 +60,6 @@ mod tests {
     #[test]
     fn what_is_printed_has_true_exponents_and_no_marks_of_commands() {
         assert_eq!(super::printed("ask `hold`: 2 m/s^2 & kg m^2"), "ask hold: 2 m/s² &amp; kg m²");
-        assert_eq!(super::printed("x^25, x^2.5 and x^3"), "x^25, x^2.5 and x³");
+        assert_eq!(super::printed("x^25, x^2.5, x^2. And x^3"), "x^25, x^2.5, x². And x³");
     }
 }

@@ -16,7 +16,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{SolveReport, Style};
 use slideway_pictures::drawing::svg::{self, Colours};
-use slideway_pictures::drawing::{Shown, sheet};
+use slideway_pictures::drawing::{Forces, Shown, sheet};
 use slideway_pictures::page::{limits_part, solve_parts};
 use slideway_pictures::theme::Theme;
 use std::any::Any;
@@ -78,7 +78,7 @@ impl Asked {
     ) -> PyResult<String> {
         let mechanism = Mechanism::new(&self.model).map_err(|faults| self.refused(py, &faults))?;
         let configuration = Configuration::new(&mechanism).map_err(|faults| self.refused(py, &faults))?;
-        let Some(sheet) = sheet(&mechanism, &configuration, report, shown) else {
+        let Some(sheet) = sheet(&mechanism, &configuration, report.map(Forces::InMotion), shown) else {
             let count = report.map_or(0, |report| report.solutions.len());
             let message = format!("solution: there is no solution of this number: {count} are listed");
             return Err(PyValueError::new_err(message));

@@ -122,14 +122,14 @@ pub(crate) fn look(
         title: line(&title(mechanism)).into_owned(),
         warnings: told(&all_warnings(&model), asked),
         left_out: model.parameters.len().saturating_sub(MOST),
-        quantities: quantities(&file, &model, (&asked.text, rest.is_some()), mechanism, &coordinates)?,
+        quantities: quantities(&file, &model, (&asked.text, state.is_at_rest()), mechanism, &coordinates)?,
         loads: mechanism.loads.iter().map(|load| load.name.to_string()).collect(),
         drives: mechanism.drives.iter().map(|drive| drive.name.to_string()).collect(),
         drawings: sheets.iter().filter_map(Drawing::of).collect(),
         held: held.map(Kept::from),
         answer: solved.as_ref().ok().map(Verdict::of).or_else(|| rest.as_ref().map(Verdict::of_rest)),
-        is_at_rest: rest.is_some(),
-        reasons: solved.as_ref().err().map(|faults| why(faults, rest.is_some())).unwrap_or_default(),
+        is_at_rest: state.is_at_rest(),
+        reasons: solved.as_ref().err().map(|faults| why(faults, state.is_at_rest())).unwrap_or_default(),
     })
 }
 

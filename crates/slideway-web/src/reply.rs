@@ -24,9 +24,9 @@ use slideway::standstill::{HoldOptions, hold_with};
 use slideway::{DriveOptions, Model};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{Colours, write};
-use slideway_pictures::drawing::{Shown, sheet};
+use slideway_pictures::drawing::{Forces, Sheet, Shown, asks_for_rest, sheet};
 use slideway_pictures::motion::{AnimationOptions, animation};
-use slideway_pictures::page::{limits_part, stylesheet};
+use slideway_pictures::page::{at_rest, limits_part, stylesheet};
 use slideway_pictures::plot::{self, limits_figure};
 use slideway_pictures::{map, theme};
 
@@ -225,9 +225,12 @@ fn drawn(of: &Asked, theme: ThemeName, callback: &mut Callback<'_>) -> Answered<
     let mechanism = Mechanism::new(&model)?;
     let configuration = Configuration::new(&mechanism)?;
     let solved = solve_with(&model, &SolveOptions::default(), callback);
-    let drawn = sheet(&mechanism, &configuration, solved.as_ref().ok(), Shown::All);
+    let known = solved.as_ref().ok();
+    let rest = asks_for_rest(known).then(|| at_rest(&model, known, callback).ok()).flatten();
+    let drawn = sheet(&mechanism, &configuration, Forces::of(known, rest.as_ref()), Shown::All);
     let Some(sheet) = drawn else { return Ok(None) };
-    let sheet = if let Err(faults) = &solved { sheet.unsolved(faults) } else { sheet };
+    let has_forces = rest.is_some_and(|rest| rest.at_rest.is_some());
+    let sheet = solved.err().iter().filter(|_| !has_forces).fold(sheet, Sheet::unsolved);
     let sheet = sheet.changed_by(&of.settings);
     Ok(Some(Told {
         svg: Some(write(&sheet.scene, &sheet.frame(None, Colours::Theme(*theme.colours())))?),

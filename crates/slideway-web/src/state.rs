@@ -13,7 +13,7 @@ use slideway::progress::Callback;
 use slideway::report::SolveReport;
 use slideway::solve::{SolveOptions, solve_with};
 use slideway::standstill::HoldReport;
-use slideway_pictures::drawing::{Forces, Held, Sheet, pieces};
+use slideway_pictures::drawing::{Forces, Held, Sheet, asks_for_rest, pieces};
 use slideway_pictures::page::at_rest;
 
 /// A state of a model.
@@ -23,7 +23,7 @@ pub(crate) struct State {
     pub(crate) configuration: Configuration,
     /// Its solutions, or why the question has no answer.
     pub(crate) solved: Result<SolveReport, Faults>,
-    /// Whether it holds where that question has no answer; nothing where this one has none either.
+    /// Whether it holds where that question has no answer, or this one; nothing where this one has none either.
     pub(crate) rest: Option<HoldReport>,
 }
 
@@ -39,15 +39,20 @@ impl State {
             Ok(configuration) => (configuration, solve_with(model, &options, callback)),
             Err(faults) => (Configuration::drawing(&mechanism), Err(faults)),
         };
-        let rest = if solved.is_ok() { None } else { at_rest(model, true, callback).ok() };
+        let known = solved.as_ref().ok();
+        let rest = if asks_for_rest(known) { at_rest(model, known, callback).ok() } else { None };
         Ok(Self { mechanism, configuration, solved, rest })
+    }
+
+    /// Whether rest is the question: motion has no answer.
+    pub(crate) fn is_at_rest(&self) -> bool {
+        self.solved.is_err() && self.rest.is_some()
     }
 
     /// Its drawings, and what those of the next state keep of them; `held` is what they keep of those before. The first
     /// are not wider than `most` drawing units.
     pub(crate) fn drawn(&self, held: Option<Held>, most: f64) -> (Vec<Sheet>, Option<Held>) {
-        let in_motion = self.solved.as_ref().ok().map(Forces::InMotion);
-        let forces = in_motion.or_else(|| self.rest.as_ref().map(Forces::AtRest));
+        let forces = Forces::of(self.solved.as_ref().ok(), self.rest.as_ref());
         let sheets = pieces(&self.mechanism, &self.configuration, forces, held.as_ref(), most);
         let has_solutions = match forces {
             Some(Forces::InMotion(report)) => {

@@ -45,7 +45,7 @@ fn drive_answers() {
         ),
         (
             driven("drawer", &[("mu", "0.8")]),
-            "It jams: no force moves it. It moves below mu = 0.6667. Backwards, 2 states are possible: push needs 9.091 N, or -100 N (unstable).",
+            "It jams: no force moves it. It moves below mu = 0.6667. Backwards, push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",
         ),
         (
             driven("drawer", &[("mu", "2/3")]),
@@ -188,11 +188,11 @@ fn hold_answers() {
         ),
         (
             held(SASH, &[], Some("gravity")),
-            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. If it were wedged it would hold any `gravity` from mu_s = 0.6667 (now 0.3). By itself `gravity` need not wedge it: do not rely on it.",
+            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. Only wedged by a knock it would hold any `gravity` from mu_s = 0.6667 (now 0.3).",
         ),
         (
             held(SASH, &wedged, Some("gravity")),
-            "It may hold, or it may start to slide: do not rely on it. While wedged it holds any `gravity` from mu_s = 0.6667 (now 0.7). By itself `gravity` need not wedge it: do not rely on it.",
+            "It may hold, or it may start to slide: do not rely on it. Only wedged by a knock it holds any `gravity` from mu_s = 0.6667 (now 0.7).",
         ),
         (
             held(GUIDED_TIPS, &[], None),
@@ -204,7 +204,7 @@ fn hold_answers() {
         ),
         (
             held("telescopic-boom", &[], Some("cylinder_1")),
-            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. If it were wedged it would hold any `cylinder_1` from mu = 4 (now 0.1). By itself `cylinder_1` need not wedge it: do not rely on it.",
+            "It does not hold: it starts to slide (s_3: 1.318 m/s^2). It does not hold with any multiple of `cylinder_1`. Only wedged by a knock it would hold any `cylinder_1` from mu = 4 (now 0.1).",
         ),
         (
             held("telescopic-boom", &[], None),
@@ -556,7 +556,7 @@ fn flutter_is_in_the_first_line_of_every_question_on_motion() {
     let crank = model("slider-crank", &[("mu", "0.8")])
         .with(&Settings::default().position("phi", "150 deg"))
         .unwrap();
-    let flutters = "flutters unless its contacts are damped.";
+    let flutters = "may vibrate by itself (flutter) unless its contacts are damped.";
     let solved = solve(&crank).unwrap().answer();
     assert!(solved.starts_with("It speeds up at "), "{solved}");
     assert!(solved.contains(&format!(". It {flutters}")), "{solved}");

@@ -284,9 +284,10 @@ fn of_drive(outcome: Outcome) -> First {
         Nothing | Jam => {
             Line(driven("drawer", &[("mu", "0.7")]), "It jams: no force moves it. It moves below ")
         }
-        Several => {
-            Line(driven("drawer", &[("mu", "0.8"), ("v", "-0.1 m/s")]), "2 states are possible: push needs ")
-        }
+        Several => Line(
+            driven("drawer", &[("mu", "0.8"), ("v", "-0.1 m/s")]),
+            "push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",
+        ),
         Undetermined => {
             Line(driven(EQUAL_PLAY, &[]), "belt needs 25 to 50 N (20 N without friction), efficiency ")
         }

@@ -15,10 +15,10 @@ use slideway::mechanism::Mechanism;
 use slideway::model::Model;
 use slideway::report::{SolveReport, Status};
 use slideway::solve::{SolveOptions, solve_with};
-use slideway::standstill::{HoldOptions, HoldReport, hold_with};
 use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours};
-use slideway_pictures::drawing::{Sheet, Shown, sheet, sheet_at_rest};
+use slideway_pictures::drawing::{Forces, Sheet, Shown, asks_for_rest, sheet};
+use slideway_pictures::page::at_rest;
 
 /// Draws a mechanism and its solutions.
 pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome, Failure> {
@@ -37,16 +37,18 @@ pub(crate) fn draw(arguments: &DrawArguments, output: &Output) -> Result<Outcome
         Ok(report) => (report, None),
         Err(faults) => (None, Some(faults)),
     };
-    let rest = refused.as_ref().and_then(|_| held(&model, &mut watch));
-    let halt = watch.finish();
     let shown = match arguments.solution {
         None | Some(Which::All) => Shown::All,
         Some(Which::None) => Shown::Mechanism,
         Some(Which::Number(number)) => Shown::Solution(number),
     };
-    // What rests has forces, too, though it has no solution in motion.
-    let at_rest = rest.as_ref().map(|rest| sheet_at_rest(&mechanism, &configuration, rest));
-    let Some(sheet) = at_rest.or_else(|| sheet(&mechanism, &configuration, report.as_ref(), shown)) else {
+    let known = report.as_ref();
+    let is_asked = shown == Shown::All && (known.is_some() || refused.is_some()) && asks_for_rest(known);
+    let mut rest = || at_rest(&model, known, &mut |progress| watch.look(progress)).ok();
+    let rest = if is_asked { rest() } else { None };
+    let halt = watch.finish();
+    let forces = Forces::of(known, rest.as_ref());
+    let Some(sheet) = sheet(&mechanism, &configuration, forces, shown) else {
         if let Some(halt) = halt {
             return Err(Failure::Halted { halt, path: None });
         }
@@ -78,11 +80,6 @@ fn solutions(
         None => Ok(Some(solve())),
         Some(_) => solve().map(|report| Some(Ok(report))),
     }
-}
-
-/// What has no answer in motion may have one at rest: whether it holds.
-fn held(model: &Model, watch: &mut Watch) -> Option<HoldReport> {
-    hold_with(model, &HoldOptions::default(), &mut |progress| watch.look(progress)).ok().flatten()
 }
 
 fn written(sheet: &Sheet, theme: PictureTheme, width: Option<f64>) -> Result<String, NotFinite> {

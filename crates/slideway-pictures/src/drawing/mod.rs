@@ -35,7 +35,7 @@ mod view;
 pub use hinges::PinForce;
 pub use panels::{Caption, Panel, Shown};
 pub use scene::{Anchor, Bounds, Class, Element, Point, Scene, Shape, Text};
-pub use sheet::{Forces, Held, Sheet, pieces, sheet, sheet_at_rest, title};
+pub use sheet::{Forces, Held, Sheet, asks_for_rest, pieces, sheet, title};
 pub use view::View;
 
 pub(crate) use forces::forces_on;

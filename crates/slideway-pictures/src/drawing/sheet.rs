@@ -15,7 +15,7 @@ use slideway::fault::Faults;
 use slideway::mechanism::Mechanism;
 use slideway::model::Settings;
 use slideway::report::{CoordinateState, Report, SolveReport};
-use slideway::standstill::HoldReport;
+use slideway::standstill::{AtRest, HoldReport};
 use slideway::units::{Unit, Units};
 
 /// Width and height for the mechanism itself in each panel, if it has no more contacts than this: with more it is
@@ -115,51 +115,44 @@ impl Sheet {
     }
 }
 
-/// Drawings of a mechanism and, if they were found, of its solutions, side by side; none if there is no
-/// solution of the wanted number.
+/// Drawings of a mechanism and, if they were found, of its solutions or of the forces that hold it, side by side; none if
+/// there is no solution of the wanted number.
 ///
 /// ```
 /// use slideway::{configuration::Configuration, mechanism::Mechanism, model::Model};
-/// use slideway_pictures::drawing::{Shown, sheet};
+/// use slideway_pictures::drawing::{Forces, Shown, sheet};
 ///
 /// let text = slideway::gallery::find("klepp-2002").expect("in the gallery").text;
 /// let model = Model::parse(text)?;
 /// let mechanism = Mechanism::new(&model)?;
 /// let configuration = Configuration::new(&mechanism)?;
 /// let report = slideway::solve::solve(&model)?;
-/// let sheet = sheet(&mechanism, &configuration, Some(&report), Shown::All).expect("solutions are there");
+/// let forces = Some(Forces::InMotion(&report));
+/// let sheet = sheet(&mechanism, &configuration, forces, Shown::All).expect("solutions are there");
 /// assert!(sheet.description.contains("3 solutions"));
 /// # Ok::<(), slideway::fault::Faults>(())
 /// ```
 pub fn sheet(
     mechanism: &Mechanism,
     configuration: &Configuration,
-    report: Option<&SolveReport>,
+    forces: Option<Forces<'_>>,
     shown: Shown,
 ) -> Option<Sheet> {
+    let (report, rest) = answers(forces);
     let mechanism = &in_units_of(report, mechanism, configuration);
     let view = view(mechanism, configuration, 1.0);
-    let drawn = Drawn { report, ..Drawn::by_itself(mechanism, configuration, &view) };
+    let drawn = Drawn { report, rest, ..Drawn::by_itself(mechanism, configuration, &view) };
     let panels = drawn.panels(shown)?;
-    let title = title(mechanism);
-    let mut lines: Vec<String> =
-        report.map(|report| state_line(&report.state, &mechanism.units)).into_iter().collect();
-    lines.extend(report.map(answer));
-    let description = described(&lines, &panels);
-    let forces_on = forces_on(mechanism);
-    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
-}
-
-/// Drawings of a mechanism and of the forces that hold it at rest, side by side; of the mechanism alone where none do.
-pub fn sheet_at_rest(mechanism: &Mechanism, configuration: &Configuration, report: &HoldReport) -> Sheet {
-    let view = view(mechanism, configuration, 1.0);
-    let rest = report.at_rest.as_ref();
-    let panels = Drawn { rest, ..Drawn::by_itself(mechanism, configuration, &view) }.panels(Shown::All);
-    let panels = panels.unwrap_or_default();
-    let lines = vec![with_minus_signs(&format!("At rest: {}", report.answer()))];
+    let lines = match forces {
+        Some(Forces::InMotion(report)) => {
+            vec![state_line(&report.state, &mechanism.units), with_minus_signs(&answer(report))]
+        }
+        Some(Forces::AtRest(report)) => vec![with_minus_signs(&format!("At rest: {}", report.answer()))],
+        None => Vec::new(),
+    };
     let description = described(&lines, &panels);
     let (title, forces_on) = (title(mechanism), forces_on(mechanism));
-    Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description)
+    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
 }
 
 /// Of which answer the forces are drawn.
@@ -169,6 +162,29 @@ pub enum Forces<'r> {
     InMotion(&'r SolveReport),
     /// Those that hold it at rest.
     AtRest(&'r HoldReport),
+}
+
+impl<'r> Forces<'r> {
+    /// Those of the states that were found. Where there is no answer in motion, or it holds in a state that leaves its forces open,
+    /// those that hold it.
+    pub fn of(solved: Option<&'r SolveReport>, rest: Option<&'r HoldReport>) -> Option<Self> {
+        let has_more = |rest: &&HoldReport| rest.at_rest.is_some() || solved.is_none();
+        let rest = rest.filter(has_more).filter(|_| asks_for_rest(solved));
+        rest.map(Self::AtRest).or_else(|| solved.map(Self::InMotion))
+    }
+}
+
+/// Whether the forces to be drawn are those at rest: there is no answer in motion, or it is that it holds.
+pub fn asks_for_rest(solved: Option<&SolveReport>) -> bool {
+    solved.is_none_or(SolveReport::rests)
+}
+
+fn answers(forces: Option<Forces<'_>>) -> (Option<&SolveReport>, Option<&AtRest>) {
+    match forces {
+        Some(Forces::InMotion(report)) => (Some(report), None),
+        Some(Forces::AtRest(report)) => (None, report.at_rest.as_ref()),
+        None => (None, None),
+    }
 }
 
 /// Draws each panel of a sheet by itself, with its caption, and at the end the key to the colours, for a page
@@ -200,11 +216,7 @@ pub fn pieces(
     held: Option<&Held>,
     most: f64,
 ) -> Vec<Sheet> {
-    let (report, rest) = match forces {
-        Some(Forces::InMotion(report)) => (Some(report), None),
-        Some(Forces::AtRest(report)) => (None, report.at_rest.as_ref()),
-        None => (None, None),
-    };
+    let (report, rest) = answers(forces);
     let mechanism = &in_units_of(report, mechanism, configuration);
     // Arrows grow little where it is narrow, and each way by steps.
     let (longest_held, growth) =

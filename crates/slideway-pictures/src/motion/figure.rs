@@ -24,6 +24,8 @@ const BEFORE_END: f64 = 1e-9;
 const POINT: f64 = 1e-6;
 /// Forces that last only for this share of the time are left out, if they grow to so many times the others.
 const RARE: f64 = 0.05;
+/// The name of a curve that begins at 0.
+const POTENTIAL: &str = "potential energy, from the start";
 /// Beside what is so many times as large a curve is too flat to be read.
 const MANY: f64 = 4.0;
 
@@ -53,7 +55,7 @@ pub fn motion_figure(history: &History) -> Figure {
     panels.extend(builder.friction(history));
     let energies = [
         ("kinetic energy", "energy.kinetic"),
-        ("potential energy", "energy.potential"),
+        (POTENTIAL, "energy.potential"),
         ("dissipated by friction", "energy.friction"),
         ("work of loads", "energy.loads"),
         ("work of drives", "energy.drives"),
@@ -61,7 +63,9 @@ pub fn motion_figure(history: &History) -> Figure {
     ];
     let energies = energies.iter().filter(|(_, column)| samples.is_used(column));
     let energies = numbered(energies.map(|(name, column)| ((*name).to_owned(), (*column).to_owned())));
-    panels.push(builder.panel("Energy", ("energy", "J"), &energies));
+    let mut energy = builder.panel("Energy", ("energy", "J"), &energies);
+    from_zero(&mut energy.curves, &builder.branches);
+    panels.push(energy);
     let jams = jams(history);
     panels.iter_mut().for_each(|panel| panel.marked.clone_from(&jams));
     Figure {
@@ -72,6 +76,14 @@ pub fn motion_figure(history: &History) -> Figure {
         quantities: vec![String::new()],
         one_legend: false,
     }
+}
+
+/// Has the potential energy begin at 0: its height is arbitrary, and would flatten the others.
+fn from_zero(curves: &mut [Curve], branches: &[Branch]) {
+    let is_potential = |curve: &&mut Curve| branches[curve.branch].name == POTENTIAL;
+    let mut curves: Vec<&mut Curve> = curves.iter_mut().filter(is_potential).collect();
+    let start = curves.iter().flat_map(|curve| &curve.points).next().map_or(0.0, |first| first[1]);
+    curves.iter_mut().flat_map(|curve| &mut curve.points).for_each(|point| point[1] -= start);
 }
 
 /// The phase portrait: the rate of every coordinate over its value, with arrowheads in the direction of time,
@@ -398,8 +410,12 @@ impl Builder<'_> {
         // What never presses is told by its gap.
         let first_of_modes = contacts.len().max(hinges.len());
         let is_pressed = |samples: &Samples, one: &Named| samples.is_used(&one.1);
-        if contacts.iter().any(|one| is_pressed(self.samples, one)) {
+        let modes = bands(history, first_of_modes);
+        let presses = contacts.iter().any(|one| is_pressed(self.samples, one));
+        if presses {
             contacts.retain(|one| is_pressed(self.samples, one));
+        } else if hinges.is_empty() && modes.len() < 2 {
+            return Vec::new();
         }
         let titles = ["Normal forces and contact modes", "Hinge forces and modes"];
         let mut panels = Vec::new();
@@ -409,7 +425,6 @@ impl Builder<'_> {
         if !hinges.is_empty() {
             panels.push((if panels.is_empty() { titles[1] } else { "Hinge forces" }, "hinge force", hinges));
         }
-        let modes = bands(history, first_of_modes);
         let panel = |(title, quantity, forces): (&str, &str, Vec<Named>)| {
             let mut panel = self.panel(title, (quantity, "N"), &forces);
             panel.y.range = range_of_what_lasts(&panel.curves);

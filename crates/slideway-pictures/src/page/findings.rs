@@ -59,12 +59,8 @@ impl Findings {
         };
         let answer =
             solve_with(model, &SolveOptions::default(), &mut look).map_err(|faults| reasons(&faults));
-        let rest = at_rest(model, answer.is_err(), &mut look);
-        let forces = match (&answer, &rest) {
-            (Ok(report), _) => Some(Forces::InMotion(report)),
-            (Err(_), Ok(report)) => Some(Forces::AtRest(report)),
-            (Err(_), Err(_)) => None,
-        };
+        let rest = at_rest(model, answer.as_ref().ok(), &mut look);
+        let forces = Forces::of(answer.as_ref().ok(), rest.as_ref().ok());
         let drawings = pieces(&mechanism, &configuration, forces, None, f64::INFINITY);
         let title = title(&mechanism);
         let limits = varied(model, wanted, &mut look)?;
@@ -139,11 +135,11 @@ fn efficiency(model: &Model, callback: &mut Callback<'_>) -> Vec<String> {
 /// The reasons, in words.
 pub fn at_rest(
     model: &Model,
-    is_question: bool,
+    solved: Option<&SolveReport>,
     callback: &mut Callback<'_>,
 ) -> Result<HoldReport, Vec<String>> {
     let mut options = HoldOptions::default();
-    options.load = only_load(model).ok().filter(|_| is_question);
+    options.load = only_load(model).ok().filter(|_| solved.is_none());
     let found = hold_with(model, &options, callback);
     found.map_err(|faults| reasons(&faults))?.ok_or_else(Vec::new)
 }

@@ -5,7 +5,7 @@ use super::report::{
     EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{OPENS, Status, Verdict, spaced};
+use crate::report::{OnFace, Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -93,11 +93,14 @@ fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
             "it is not decided whether it moves: it is on the verge of jamming. Take it as jammed.".to_owned()
         }
         ([], _) => stuck(report, direction, is_advised),
-        ([only], _) => {
-            format!("{}.{}{}", needs_one(report, direction, only), lifts(only), unsettled(only.attainability))
-        }
-        (several, _) => needs_several(report, several),
+        ([only], _) => settled(report, direction, only),
+        _ => needs_several(report, direction),
     }
+}
+
+/// The efforts of the state that it takes: "push needs 27.3 N (20 N without friction): efficiency 73.26 %. foot lifts off."
+fn settled(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
+    format!("{}.{}{}", needs_one(report, direction, only), lifts(only), unsettled(only.attainability))
 }
 
 /// "it jams: no force moves it.", "bed tips: model it as a block slider ..."
@@ -169,28 +172,47 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
 
 /// " foot lifts off.", of joints that open.
 fn lifts(only: &DriveSolution) -> String {
-    let opens = only.joints.iter().filter(|joint| joint.mode == OPENS);
+    let opens = only.joints.iter().filter(|joint| joint.face == Some(OnFace::Opens));
     let words: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
     words.concat()
 }
 
-/// "2 states are possible: push needs 9.091 N, or -100 N (unstable)."
-fn needs_several(report: &DriveReport, several: &[DriveSolution]) -> String {
-    let count = several.len();
-    let ([drive], 0..=TOLD) = (report.drives.as_slice(), count) else {
-        return format!("{count} states are possible, each with its own efforts.");
+/// "push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",
+/// "2 states are possible: push needs 9.091 N, or 12 N."
+fn needs_several(report: &DriveReport, direction: &DriveDirection) -> String {
+    let states = &direction.solutions;
+    let ([drive], 0..=TOLD) = (report.drives.as_slice(), states.len()) else {
+        return format!("{} states are possible, each with its own efforts.", states.len());
     };
     let unit = report.units.of(drive.unit);
-    let one = |state: &DriveSolution| {
-        let note = match state.attainability {
-            Verdict::Unattainable => " (unstable)",
-            Verdict::Flutter => " (it flutters)",
+    let efforts = |states: &[&DriveSolution], between: &str| {
+        let note = |state: &DriveSolution| match state.attainability {
+            Verdict::Flutter => " (it may vibrate)",
             _ => "",
         };
-        unit.brief(state.efforts[0]) + note
+        let one = |state: &&DriveSolution| unit.brief(state.efforts[0]) + note(state);
+        states.iter().map(one).collect::<Vec<_>>().join(between)
     };
-    let efforts: Vec<String> = several.iter().map(one).collect();
-    format!("{count} states are possible: {} needs {}.", drive.name, efforts.join(", or "))
+    let (unstable, stable): (Vec<_>, Vec<_>) =
+        states.iter().partition(|state| state.attainability == Verdict::Unattainable);
+    let needs = match stable.as_slice() {
+        [] => {
+            let efforts = efforts(&unstable, ", or ");
+            return format!("all {} states are unstable: {} needs {efforts}.", states.len(), drive.name);
+        }
+        [only] => settled(report, direction, only),
+        several => {
+            let efforts = efforts(several, ", or ");
+            format!("{} states are possible: {} needs {efforts}.", several.len(), drive.name)
+        }
+    };
+    match unstable.as_slice() {
+        [] => needs,
+        [one] => format!("{needs} Another state, at {}, is unstable.", efforts(&[one], "")),
+        several => {
+            format!("{needs} {} other states, at {}, are unstable.", several.len(), efforts(several, " and "))
+        }
+    }
 }
 
 /// "belt needs 25 to 50 N (20 N without friction), efficiency 40 to 80 %; how left, right share the load is

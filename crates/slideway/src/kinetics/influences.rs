@@ -68,11 +68,9 @@ impl Influences {
         Accuracy { part: ROUNDING * self.condition, of_load: self.greatest_load.max(self.greatest_unknown) }
     }
 
-    /// Accelerations of a chosen coordinate: without friction if `bias` is asked for, else what is added to
-    /// it.
-    pub(crate) fn coordinate(&self, index: usize, unknowns: &DVector<f64>, bias: bool) -> f64 {
-        let row = &self.coordinate_rows[index];
-        row.times(unknowns) - if bias { row.right_hand_side } else { 0.0 }
+    /// The acceleration of a chosen coordinate, or what is `added` to it.
+    pub(crate) fn coordinate(&self, index: usize, unknowns: &DVector<f64>, added: bool) -> f64 {
+        self.coordinate_rows[index].acceleration(unknowns, added)
     }
 
     /// The influences of a mechanism in a state; none if its equations are not certainly well-conditioned:

@@ -372,7 +372,7 @@ impl KineticEquations {
 
     /// Accelerations of the chosen coordinates that belong to accelerations of the bodies.
     pub fn coordinate_accelerations(&self, unknowns: &DVector<f64>) -> Vec<f64> {
-        self.coordinate_rows.iter().map(|row| row.times(unknowns) - row.right_hand_side).collect()
+        self.coordinate_rows.iter().map(|row| row.acceleration(unknowns, false)).collect()
     }
 
     /// Jumps of the rates of the chosen coordinates that belong to jumps of the bodies' velocities.

@@ -6,6 +6,7 @@ use crate::ids::{Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, length, rot90};
 use crate::model::Round;
+use crate::units::number::beside;
 use nalgebra::{DVector, Vector2};
 
 /// One row: entries by the index of the acceleration, and the right-hand side.
@@ -26,6 +27,18 @@ impl ConstraintRow {
     /// Scalar product with the vector of unknowns.
     pub(crate) fn times(&self, unknowns: &DVector<f64>) -> f64 {
         self.entries.iter().map(|(index, value)| value * unknowns[*index]).sum()
+    }
+
+    /// The acceleration of what the row is about, or what is `added` to it by forces: 0 where it is a rounding error beside those of
+    /// the bodies that it is made of.
+    pub(crate) fn acceleration(&self, unknowns: &DVector<f64>, added: bool) -> f64 {
+        // Three of a body: along x and y, and of rotation.
+        let of_body = |&(index, value): &(usize, f64)| match index % 3 {
+            2 => value * unknowns[index],
+            component => value * unknowns[index - component].hypot(unknowns[index - component + 1]),
+        };
+        let scale = self.entries.iter().map(|entry| of_body(entry).abs()).fold(0.0, f64::max);
+        beside(self.times(unknowns) - if added { 0.0 } else { self.right_hand_side }, scale)
     }
 }
 

@@ -67,7 +67,7 @@ fn of_value(varied: &Varied, at: f64, work: Work<'_>) -> Result<Found, Faults> {
         continuum: report.status == Status::Continuum,
     };
     // Of infinitely many states it counts that one of them is of rest.
-    let starts = if report.rests() { Some(vec![HOLDS.to_owned()]) } else { report.start_clauses() };
+    let starts = if report.rests() { Some(vec![HOLDS.to_owned()]) } else { report.starts() };
     Ok(Found { numbers, starts })
 }
 

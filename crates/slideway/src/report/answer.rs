@@ -2,27 +2,20 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, Solution, SolveReport, SpeedChange,
-    Status, Verdict,
+    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
+    SpeedChange, Status, Verdict,
 };
 use crate::units::brief;
 
 /// What is left open where ranges of parameters are not followed.
 pub(crate) const AT_THE_MIDDLE: &str =
     "parameters known within bounds are taken at the middle of their ranges";
-/// Of a block that keeps one corner on its face.
-pub(crate) const TIPS: &str = "it tips";
-/// Of a corner or block that leaves its face.
-pub(crate) const OPENS: &str = "opens";
 /// Of a state that stays at rest.
 pub(crate) const HOLDS: &str = "it holds";
 /// The remedy where a search ended early.
 const MORE_TIME: &str = "Allow it more time.";
 /// The remedy at a boundary.
 const NEARBY: &str = "Ask again with slightly more or less friction or load.";
-
-/// Of a contact that may lift off and does not, before what it does.
-const CLOSED: &str = "closed, ";
 
 impl SolveReport {
     /// The verdict in a sentence: "It moves: push needs 36.36 N (20 N without friction)."
@@ -66,44 +59,26 @@ impl SolveReport {
     }
 
     /// Returns whether it holds: some of infinitely many states is one of rest.
-    pub(crate) fn rests(&self) -> bool {
+    pub fn rests(&self) -> bool {
         self.continua.iter().any(|continuum| continuum.rests)
     }
 
-    /// Words for the joints that are at rest and may lift off, for each solution: "base slides forwards", of one that
-    /// stays at rest "it holds". None if no such joint is at rest. Without numbers, so that the same start has the same words in
-    /// another state.
+    /// A clause for each solution on the joints that are at rest and may lift off: "it starts to move: base slides forwards",
+    /// "it tips: base on its left corner, slides forwards", of what moves already "it moves on: lower sticks". None if no such
+    /// joint is at rest. Without numbers, so that the same start has the same words in another state.
     pub(crate) fn starts(&self) -> Option<Vec<String>> {
-        self.starts_in(|joint| joint.start.as_ref().unwrap_or(&joint.mode))
-    }
-
-    /// A clause for each of [`Self::starts`]: "it starts to move: base slides forwards", "it tips: base on its left corner, the
-    /// right one opens, slides forwards", of what moves already "it moves on: lower sticks".
-    pub(crate) fn start_clauses(&self) -> Option<Vec<String>> {
-        self.starts().map(|starts| starts.iter().map(|start| self.clause(start)).collect())
-    }
-
-    fn clause(&self, start: &str) -> String {
         let moves = self.state.iter().any(|coordinate| coordinate.rate != 0.0);
-        match start.split_once(&format!(": {TIPS}")) {
-            _ if start == HOLDS => start.to_owned(),
-            Some((before, behind)) => format!("{TIPS}: {before}{behind}"),
-            None if moves => format!("it moves on: {start}"),
-            None => format!("it starts to move: {start}"),
-        }
-    }
-
-    fn starts_in(&self, words: impl Fn(&JointMode) -> &String) -> Option<Vec<String>> {
         let start = |solution: &Solution| {
-            if solution.rests {
-                return HOLDS.to_owned();
-            }
-            let joints = solution.joints.iter().filter(|joint| self.at_rest.contains(&joint.name));
-            let one = |joint: &JointMode| {
-                let words = words(joint);
-                format!("{} {}", joint.name, words.strip_prefix(CLOSED).unwrap_or(words))
+            let at_rest = |joint: &&JointMode| self.at_rest.contains(&joint.name);
+            let joints: Vec<&JointMode> = solution.joints.iter().filter(at_rest).collect();
+            let what = match moves {
+                _ if solution.rests => return HOLDS.to_owned(),
+                _ if joints.iter().any(|joint| joint.face == Some(OnFace::Tips)) => "it tips",
+                true => "it moves on",
+                false => "it starts to move",
             };
-            joints.map(one).collect::<Vec<_>>().join("; ")
+            let one = |joint: &&JointMode| format!("{} {}", joint.name, joint.start());
+            format!("{what}: {}", joints.iter().map(one).collect::<Vec<_>>().join("; "))
         };
         (!self.at_rest.is_empty()).then(|| self.solutions.iter().map(start).collect())
     }
@@ -111,7 +86,7 @@ impl SolveReport {
     /// How it goes on where contacts that may lift off are at rest: "It starts to move: base slides forwards.", or that it
     /// holds.
     fn start_in_words(&self) -> Option<String> {
-        let starts = self.starts_in(|joint| &joint.mode)?;
+        let starts = self.starts()?;
         let unique = if self.every_load_has_one_state == Some(true) {
             " Every load has exactly one state."
         } else {
@@ -120,12 +95,10 @@ impl SolveReport {
         Some(match (self.status, starts.as_slice()) {
             (Status::None, _) => "Nothing satisfies the equations: it can neither rest nor start.".to_owned(),
             (Status::One, [only]) => {
-                let clause = self.clause(only);
-                format!("It {}.{unique}", clause.strip_prefix("it ").unwrap_or(&clause))
+                format!("It {}.{unique}", only.strip_prefix("it ").unwrap_or(only))
             }
             (Status::Several, several) => {
-                let ways: Vec<String> = several.iter().map(|start| self.clause(start)).collect();
-                format!("It can go on in {} ways: {}.", ways.len(), ways.join(", or "))
+                format!("It can go on in {} ways: {}.", several.len(), several.join(", or "))
             }
             _ => {
                 let also = match self.solutions.len() {
@@ -190,9 +163,9 @@ impl SolveReport {
         match jams {
             Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
                 let safe = "Below that no load jams it while it moves.".to_owned();
-                return vec![end_in_words(margins, &at(jams)), safe];
+                return vec![self.end_in_words(margins, &at(jams)), safe];
             }
-            Some(jams) => sentences.push(end_in_words(margins, &at(jams))),
+            Some(jams) => sentences.push(self.end_in_words(margins, &at(jams))),
             None if margins.another_count.is_none() && self.has_friction() => {
                 let with = if margins.uniqueness.is_some() { " under this load" } else { "" };
                 sentences.push(if self.status == Status::Several {
@@ -417,6 +390,23 @@ impl SolveReport {
         least.or(missing).into_iter().collect()
     }
 
+    /// "It would jam from mu = 0.6667 (2.222 times this friction)."
+    fn end_in_words(&self, margins: &Margins, at: &str) -> String {
+        let again = margins.solutions_again;
+        let again =
+            again.map_or_else(String::new, |again| format!("; it moves again from {} times", brief(again)));
+        // What only lies on its face is stopped by its own motion.
+        let lies =
+            self.solutions.iter().any(|solution| solution.joints.iter().any(|joint| joint.face.is_some()));
+        match margins.tips.as_slice() {
+            [] if lies && self.model.drives == 0 => {
+                format!("It would catch and stop at once (jam) from {at}{again}.")
+            }
+            [] => format!("It would jam from {at}{again}."),
+            joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
+        }
+    }
+
     /// True if friction acts anywhere: more of none is none.
     fn has_friction(&self) -> bool {
         let mut states = self.solutions.iter().chain(&self.preload_gap_states);
@@ -424,17 +414,6 @@ impl SolveReport {
             state.contacts.iter().any(|contact| contact.friction_force != 0.0)
                 || state.hinges.iter().any(|hinge| hinge.friction.is_some())
         })
-    }
-}
-
-/// "It would jam from mu = 0.6667 (2.222 times this friction)."
-fn end_in_words(margins: &Margins, at: &str) -> String {
-    let again = margins.solutions_again;
-    let again =
-        again.map_or_else(String::new, |again| format!("; it moves again from {} times", brief(again)));
-    match margins.tips.as_slice() {
-        [] => format!("It would jam from {at}{again}."),
-        joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
     }
 }
 
@@ -446,8 +425,8 @@ fn safe_up_to(any: &str, times: &str) -> String {
 /// The end of a sentence, and the contacts that lift off in a solution: ". tip lifts off.", of a block that keeps another
 /// corner on its face " and tips: base.front lifts off."
 fn lifting_in_words(solution: &Solution) -> String {
-    let before =
-        if solution.joints.iter().any(|joint| joint.mode.ends_with(TIPS)) { " and tips:" } else { "." };
+    let tips = solution.joints.iter().any(|joint| joint.face == Some(OnFace::Tips));
+    let before = if tips { " and tips:" } else { "." };
     let opens = solution.contacts.iter().filter(|contact| contact.gap_acceleration.is_some());
     let names: Vec<&str> = opens.map(|contact| &*contact.name).collect();
     match names.as_slice() {

@@ -1,6 +1,6 @@
 //! The report as CSV: one row for each number, so that any tool can filter it.
 
-use super::{Solution, SolveReport, number};
+use super::{Solution, SolveReport};
 
 impl SolveReport {
     /// The report as CSV with the columns `status`, `solution`, `kind`, `name`, `quantity`, `value`, `unit`.
@@ -82,14 +82,7 @@ impl Rows {
             row("body", &body.name, "residual_moment", body.residual_moment, "N m");
         }
         for coordinate in &solution.coordinates {
-            let scale = solution.greatest_acceleration(coordinate.unit);
-            row(
-                "coordinate",
-                &coordinate.name,
-                "acceleration",
-                number::beside(coordinate.acceleration, scale),
-                coordinate.unit,
-            );
+            row("coordinate", &coordinate.name, "acceleration", coordinate.acceleration, coordinate.unit);
         }
         for drive in &solution.drives {
             row("drive", &drive.name, "effort", drive.effort, drive.unit);

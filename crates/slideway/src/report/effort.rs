@@ -48,7 +48,7 @@ pub(crate) fn kind(unit: &str) -> Option<&'static str> {
 pub(crate) fn unsettled(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Unattainable => " This state is unstable: a real mechanism leaves it.",
-        Verdict::Flutter => " It flutters unless its contacts are damped.",
+        Verdict::Flutter => " It may vibrate by itself (flutter) unless its contacts are damped.",
         _ => "",
     }
 }

@@ -24,7 +24,7 @@ mod wrap;
 
 pub(crate) use crate::units::number;
 pub use crate::units::precise;
-pub(crate) use answer::{AT_THE_MIDDLE, HOLDS, OPENS, TIPS};
+pub(crate) use answer::{AT_THE_MIDDLE, HOLDS};
 pub use attainability::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
 pub use end::ModeEndCause;
 pub use finite::{defined, finite};
@@ -299,18 +299,6 @@ impl SolveReport {
         let ends = open.flat_map(|range| range.from.iter().chain(&range.to).map(|end| (range.unit, *end)));
         let values: Vec<(&'static str, f64)> = states.flat_map(Solution::efforts).chain(ends).collect();
         self.model.units = std::mem::take(&mut self.model.units).suited_to(values);
-    }
-}
-
-impl Solution {
-    /// The greatest acceleration of a body, of which that of a coordinate with this unit is made: what is 13 digits below it is
-    /// rounding.
-    pub(crate) fn greatest_acceleration(&self, unit: &str) -> f64 {
-        let of_body = |body: &Body| match unit {
-            "rad/s^2" => body.angular_acceleration.abs(),
-            _ => body.acceleration[0].hypot(body.acceleration[1]),
-        };
-        self.bodies.iter().map(of_body).fold(0.0, f64::max)
     }
 }
 
@@ -671,9 +659,69 @@ pub struct JointMode {
     pub name: String,
     /// The mode in words: "touching at lower right and upper left".
     pub mode: String,
-    /// The mode of a joint at rest that starts to slide, without numbers: "closed, slides forwards".
+    /// What it does on a face that it may leave; absent on a guide that holds it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face: Option<OnFace>,
+    /// How it starts from rest: 1 if it slides along its guide, -1 if against it, 0 if it sticks; absent of what is not at rest.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub slip: Option<i8>,
+    /// Where it touches, in words; empty where `face` says all.
     #[serde(skip)]
-    pub(crate) start: Option<String>,
+    place: String,
+    /// How it starts, in words without numbers: "sticks", "slides forwards".
+    #[serde(skip)]
+    start: &'static str,
+}
+
+/// What a corner or a block does on a face that it may leave.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum OnFace {
+    /// It stays there.
+    Closed,
+    /// One corner of a block stays, the other one leaves it.
+    Tips,
+    /// It leaves.
+    Opens,
+}
+
+impl JointMode {
+    pub(crate) fn new(name: String, (face, place): (Option<OnFace>, String)) -> Self {
+        let mut joint = Self { name, mode: String::new(), face, slip: None, place, start: "" };
+        joint.mode = joint.place().to_owned() + if face == Some(OnFace::Tips) { ": it tips" } else { "" };
+        joint
+    }
+
+    /// Where it touches: "on its left corner", "closed".
+    pub(crate) fn place(&self) -> &str {
+        match self.face {
+            Some(OnFace::Opens) => "opens",
+            Some(OnFace::Closed) if self.place.is_empty() => "closed",
+            _ => &self.place,
+        }
+    }
+
+    /// Has it stick from rest, in this word for it.
+    pub(crate) fn sticks(&mut self, word: &'static str) {
+        self.mode = format!("{}, {word}", self.mode);
+        (self.slip, self.start) = (Some(0), word);
+    }
+
+    /// Has it slide from rest in the direction of its guide or against it, which these words say with numbers.
+    pub(crate) fn slides(&mut self, slip: i8, words: &str) {
+        self.mode = format!("{}, {words}", self.mode);
+        (self.slip, self.start) = (Some(slip), if slip > 0 { "slides forwards" } else { "slides backwards" });
+    }
+
+    /// What it does, without numbers: "on its left corner, sticks", "slides forwards".
+    pub(crate) fn start(&self) -> String {
+        match (&*self.place, self.start) {
+            (_, "") => self.place().to_owned(),
+            ("", start) => start.to_owned(),
+            (place, start) => format!("{place}, {start}"),
+        }
+    }
 }
 
 /// A hinge force.

@@ -63,10 +63,10 @@ impl SpeedChange {
 }
 
 /// Of a solution that slows down although the loads push it: how to ask whether it jams.
-pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads. Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.";
+pub(crate) const FRICTION_EXCEEDS_LOADS: &str = "It slows down because friction exceeds the loads. Whether a push keeps it moving: give the push as a drive, or ask `slideway hold`.";
 
 /// Of limits where no drive prescribes the motion: what asks whether it jams.
-pub(crate) const NO_DRIVE: &str = "Without a drive it slows down where friction exceeds the loads. Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.";
+pub(crate) const NO_DRIVE: &str = "Without a drive it slows down where friction exceeds the loads. Whether a push keeps it moving: give the push as a drive, or ask `slideway hold`.";
 
 /// When and where a coordinate stops if its acceleration stays as it is.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -570,9 +570,8 @@ fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<
     // Of a coordinate that a drive moves the acceleration is given.
     let is_told = |coordinate: &CoordinateAcceleration| verbose || coordinate.speed.is_some();
     for coordinate in solution.coordinates.iter().filter(|coordinate| is_told(coordinate)) {
-        let scale = solution.greatest_acceleration(coordinate.unit);
         let unit = units.of(coordinate.unit);
-        row(&coordinate.name, "acceleration", unit.against(coordinate.acceleration, scale), &unit);
+        row(&coordinate.name, "acceleration", unit.number(coordinate.acceleration), &unit);
     }
     for drive in &solution.drives {
         let unit = units.of(drive.unit);

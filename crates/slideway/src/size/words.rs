@@ -155,11 +155,11 @@ impl Words<'_> {
         let wedged = match report.wedged {
             None => String::new(),
             Some(margin) if margin >= 1.0 - SAME => {
-                format!("; it holds only while wedged, with a safety factor of {}", brief(margin))
+                format!("; wedged by a knock it holds with a safety factor of {}", brief(margin))
             }
             Some(margin) => {
                 let growth = brief(margin.recip());
-                format!("; even wedged it would hold only from {growth} times its static friction on")
+                format!("; even wedged by a knock it needs {growth} times its static friction")
             }
         };
         format!("{model}: {told}{wedged}.")

@@ -10,7 +10,7 @@ use super::parts::contact_couples;
 use super::resting::Resting;
 use super::stages::Stages;
 use super::state::{State, in_gap, pattern, point, pressed, regular, signs, states_of};
-use super::words::joint_mode_in_words;
+use super::words::joint_mode;
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedOutputs, Tipping};
 use crate::fault::Faults;
@@ -673,9 +673,8 @@ pub(crate) fn joint_modes(
     let one = |(joint, slider): (JointId, &Slider)| {
         let tangent = configuration.slide(mechanism, slider).tangent;
         let signs: Vec<i8> = slider.contacts.iter().map(|contact| signs[contact.index()]).collect();
-        let mode = joint_mode_in_words(mechanism, slider, tangent, &signs);
         let name = mechanism.joints[joint.index()].name.to_string();
-        report::JointMode { name, mode, start: None }
+        report::JointMode::new(name, joint_mode(mechanism, slider, tangent, &signs))
     };
     // What is apart has no mode.
     mechanism.sliders().filter(|(_, slider)| !slider.contacts.is_empty()).map(one).collect()

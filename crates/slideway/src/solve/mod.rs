@@ -65,7 +65,7 @@ pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::{certain_counts, counted};
-pub(crate) use words::joint_mode_in_words;
+pub(crate) use words::joint_mode;
 pub use words::mode_in_words;
 
 use crate::configuration::Configuration;

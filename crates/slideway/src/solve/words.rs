@@ -6,7 +6,7 @@
 use crate::ids::ContactId;
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::SliderKind;
-use crate::report::{OPENS, TIPS};
+use crate::report::OnFace;
 use nalgebra::Vector2;
 
 /// The contact mode of a sliding joint.
@@ -32,17 +32,22 @@ pub fn mode_in_words(slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> St
 
 /// The contact mode of a sliding joint, as [`mode_in_words`] has it; of one that shares its load with others
 /// and has other contacts than the two ends of a block, what each of them does, "open" where its normal force is 0. Press fits
-/// are on one face or on both.
-pub(crate) fn joint_mode_in_words(
+/// are on one face or on both. On a face that it may leave what it does there, and the corner that stays.
+pub(crate) fn joint_mode(
     mechanism: &Mechanism,
     slider: &Slider,
     tangent: Vector2<f64>,
     signs: &[i8],
-) -> String {
-    let guide = GuideInWords { tangent, around: slider.around };
+) -> (Option<OnFace>, String) {
     if slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens) {
-        return guide.on_face(signs);
+        let (face, place) = GuideInWords { tangent, around: slider.around }.on_face(signs);
+        return (Some(face), place);
     }
+    (None, on_guide(mechanism, slider, tangent, signs))
+}
+
+fn on_guide(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
+    let guide = GuideInWords { tangent, around: slider.around };
     if !slider.contacts.iter().any(|contact| mechanism.excess.shares(*contact)) {
         return mode_in_words(slider, tangent, signs);
     }
@@ -100,17 +105,14 @@ impl GuideInWords {
         self.tangent.y.abs() > self.tangent.x.abs() * (1.0 + 1e-9)
     }
 
-    /// What a corner or a block does on a face that it may leave.
-    fn on_face(&self, signs: &[i8]) -> String {
+    /// What a corner or a block does on a face that it may leave, and where it stays there.
+    fn on_face(&self, signs: &[i8]) -> (OnFace, String) {
         match signs {
-            [-1] | [-1, -1] => OPENS.to_owned(),
-            [0] | [0, 0] => "without contact force".to_owned(),
-            [_] | [0 | 1, 0 | 1] => "closed".to_owned(),
-            [front, ..] => {
-                let [stays, opens] = if *front < 0 { [-1.0, 1.0] } else { [1.0, -1.0] };
-                format!("on its {} corner, the {} one opens: {TIPS}", self.end(stays), self.end(opens))
-            }
-            [] => String::new(),
+            [-1] | [-1, -1] => (OnFace::Opens, String::new()),
+            [0] | [0, 0] => (OnFace::Closed, "without contact force".to_owned()),
+            [-1, _] => (OnFace::Tips, format!("on its {} corner", self.end(-1.0))),
+            [_, -1] => (OnFace::Tips, format!("on its {} corner", self.end(1.0))),
+            _ => (OnFace::Closed, String::new()),
         }
     }
 

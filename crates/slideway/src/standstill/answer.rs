@@ -261,12 +261,12 @@ fn locks(load: &LoadReport, holds_all: bool) -> String {
             }
         };
     }
-    let by_itself = match load.certain_from {
-        Some(certain) => format!("By itself `{name}` is held only {}.", at(certain)),
-        None => format!("By itself `{name}` need not wedge it: do not rely on it."),
+    let holds = if load.self_locking { "holds" } else { "would hold" };
+    let (wedged, by_itself) = match load.certain_from {
+        Some(certain) => ("Wedged", format!("; without a knock only from {}", value_of(known, certain))),
+        None => ("Only wedged", String::new()),
     };
-    let wedges = if load.self_locking { "While wedged it holds" } else { "If it were wedged it would hold" };
-    format!("{wedges} any `{name}` {}. {by_itself}", at(first))
+    format!("{wedged} by a knock it {holds} any `{name}` {}{by_itself}.", at(first))
 }
 
 /// That no friction was found with which a load is held, however great.
@@ -313,24 +313,34 @@ fn from(known: &Threshold, value: f64) -> String {
 
 /// "mu = 0.6 (now 0.3)", "mu_static = 0.1667 (now 0.2)", "1.2 times this static friction"
 fn threshold(known: &Threshold, value: f64) -> String {
-    let now = |name: &str, at: f64, present: f64| match [at, present].map(brief) {
-        [at, present] if at == present => format!("{name} = {at}, its present value"),
-        [at, present] => format!("{name} = {at} (now {present})"),
-    };
+    let told = value_of(known, value);
+    match coefficient(known, value).map(|(_, at, present)| [at, present].map(brief)) {
+        Some([at, present]) if at == present => format!("{told}, its present value"),
+        Some([_, present]) => format!("{told} (now {present})"),
+        None => told,
+    }
+}
+
+/// "mu = 0.6", "1.2 times this static friction"
+fn value_of(known: &Threshold, value: f64) -> String {
+    match coefficient(known, value) {
+        Some((name, at, _)) => format!("{name} = {}", brief(at)),
+        None => format!("{} times this static friction", brief(value)),
+    }
+}
+
+/// The coefficient that all static friction is, its value there and its present one; none where there are several.
+fn coefficient(known: &Threshold, value: f64) -> Option<(&str, f64, f64)> {
     if known.varied != "static friction" {
-        return now(&known.varied, value, known.present);
+        return Some((&known.varied, value, known.present));
     }
     if let Some((name, present)) = &known.parameter {
-        return now(name, present * value, *present);
+        return Some((name, present * value, *present));
     }
     let mut coefficients = known.coefficients.iter().flat_map(|one| one.mu_static);
-    match coefficients.next() {
-        Some(first) if !known.friction_in_hinges && coefficients.all(|other| other == first) => {
-            let present = first / known.value.unwrap_or(value);
-            now("mu_static", present * value, present)
-        }
-        _ => format!("{} times this static friction", brief(value)),
-    }
+    let first = coefficients.next().filter(|_| !known.friction_in_hinges)?;
+    let present = first / known.value.unwrap_or(value);
+    coefficients.all(|other| other == first).then_some(("mu_static", present * value, present))
 }
 
 /// That motions without inertia leave the start of the motion open.

@@ -66,7 +66,7 @@ pub use report::{
 
 use crate::configuration::{motions_without_inertia, unit};
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::mechanism::{Contact, Mechanism};
+use crate::mechanism::{Contact, FrictionCircle, Mechanism};
 use crate::model::Model;
 use crate::one_face::{Pressed, one_face_hints};
 use crate::progress::{Callback, Work, undisturbed, watched};
@@ -375,8 +375,7 @@ fn load_report(
     }))
 }
 
-/// The static friction that the loads need as they are; none if there is no static friction that could hold anything, or some
-/// in hinges.
+/// The static friction that the loads need as they are; none if there is no static friction that could hold anything.
 ///
 /// # Errors
 /// As [`hold`].
@@ -387,7 +386,9 @@ fn friction_needed(
     work: Work<'_>,
 ) -> Result<Option<FrictionNeeded>, Faults> {
     let rubs = |contact: &Contact| contact.mu_static.iter().any(|mu| *mu > 0.0);
-    if setup.mechanism.rough_hinges().next().is_some() || !setup.mechanism.contacts.iter().any(rubs) {
+    let turns_hard = |circle: &FrictionCircle| circle.static_radius > 0.0;
+    let Mechanism { contacts, friction_circles, .. } = &setup.mechanism;
+    if !contacts.iter().any(rubs) && !friction_circles.iter().any(turns_hard) {
         return Ok(None);
     }
     let (threshold, certain_from) = threshold::threshold(model, options, setup, work)?;

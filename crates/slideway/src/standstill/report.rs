@@ -83,8 +83,7 @@ pub struct HoldReport {
     pub wedging: Option<Wedging>,
     /// The load that is varied, if one is.
     pub load: Option<LoadReport>,
-    /// How much static friction the loads need as they are; absent with a varied load, without friction, and where hinges rub, of
-    /// which each value tried takes many linear programs.
+    /// How much static friction the loads need as they are; absent with a varied load, and without friction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction: Option<FrictionNeeded>,
     /// The states of rest, if there is one of which the reactions were decided.

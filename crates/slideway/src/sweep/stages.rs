@@ -59,21 +59,21 @@ impl Stages {
         influences: Influences,
         columns: &Columns,
     ) -> Result<Self, Faults> {
-        let outputs = |unknowns: &DVector<f64>, without_friction: bool| -> Vec<f64> {
+        let outputs = |unknowns: &DVector<f64>, added: bool| -> Vec<f64> {
             let one = |output: &Output| match *output {
-                Output::Coordinate(index) => influences.coordinate(index, unknowns, without_friction),
+                Output::Coordinate(index) => influences.coordinate(index, unknowns, added),
                 Output::Unknown(place, sign) => sign * unknowns[place],
                 Output::Gap(_) | Output::Other => 0.0,
             };
             columns.outputs.iter().map(one).collect()
         };
-        let frictionless = outputs(&influences.frictionless, true);
-        let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, false));
+        let frictionless = outputs(&influences.frictionless, false);
+        let per_force = |column: &[DVector<f64>; 2]| column.each_ref().map(|face| outputs(face, true));
         let per_force = influences.columns.iter().map(per_force).collect();
-        let couples = influences.couples.iter().map(|couple| outputs(couple, false)).collect();
-        let self_stresses = influences.self_stresses.iter().map(|stress| outputs(stress, false)).collect();
+        let couples = influences.couples.iter().map(|couple| outputs(couple, true)).collect();
+        let self_stresses = influences.self_stresses.iter().map(|stress| outputs(stress, true)).collect();
         let opening = |opening: &Opening| {
-            let mut added = outputs(&opening.answer, false);
+            let mut added = outputs(&opening.answer, true);
             let own = |output: &Output| *output == Output::Gap(opening.contact);
             if let Some(own) = columns.outputs.iter().position(own) {
                 added[own] = opening.acceleration;

@@ -11,6 +11,7 @@ use crate::mechanism::{JointKind, Mechanism};
 use crate::modes::ContactState;
 use crate::modes::screen::SmallState;
 use crate::report::Verdict;
+use crate::units::number::beside;
 
 /// Data from which the rows of a point are written.
 pub(super) struct Writer<'w> {
@@ -193,9 +194,11 @@ impl Writer<'_> {
     }
 }
 
-/// Adds the contribution of a force or couple to outputs.
+/// Adds the contribution of a force or couple to outputs; what cancels is 0, not its rounding error.
 fn add_multiple(outputs: &mut [f64], factor: f64, per_unit: &[f64]) {
-    outputs.iter_mut().zip(per_unit).for_each(|(sum, per_unit)| *sum += factor * per_unit);
+    for (sum, per_unit) in outputs.iter_mut().zip(per_unit) {
+        *sum = beside(*sum + factor * per_unit, sum.abs());
+    }
 }
 
 /// With friction in hinges: numbers the states of each mode among the rows of a point, which begin with `first`.

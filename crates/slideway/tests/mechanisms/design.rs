@@ -68,7 +68,7 @@ fn efforts(report: &DriveReport) -> [(f64, EfficiencyKind, Option<f64>); 2] {
 #[test]
 fn what_holds_only_while_wedged_is_told_apart() {
     for (mu, told) in [
-        ("0.3", "even wedged it would hold only from 2.222 times its static friction on"),
+        ("0.3", "even wedged by a knock it needs 2.222 times its static friction"),
         ("0.7", "it holds only while wedged, with a safety factor of 1.05"),
     ] {
         let drawer = with("drawer-on-two-rails", &[("mu", mu)]);

@@ -149,7 +149,7 @@ fn what_is_wedged_is_not_called_self_locking() {
     assert_eq!((holds, wedging.as_deref()), (true, Some("sleeve.front sleeve.rear")));
     for sentence in [
         "It can wedge: sleeve.front, sleeve.rear can press against each other without any load, however hard.",
-        "While wedged it holds any `W` from mu_static = 0.508 (now 0.52). By itself `W` need not wedge it: do not rely on it.",
+        "Only wedged by a knock it holds any `W` from mu_static = 0.508 (now 0.52).",
         "The moving parts have no mass, so only the forces at rest are examined.",
     ] {
         assert!(text.contains(sentence), "{sentence}\n{text}");

@@ -91,7 +91,7 @@ fn a_peg_that_slows_down_stops_and_stays() {
     for sentence in [
         "It slows down at 2200 m/s^2.",
         "With this acceleration z would stop after 4.5455e-7 s and 2.2727e-7 mm.",
-        "It slows down because friction exceeds the loads. Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.",
+        "It slows down because friction exceeds the loads. Whether a push keeps it moving: give the push as a drive, or ask `slideway hold`.",
         "At rest in this position, these loads would not move it.",
         "This contact mode remains however much friction grows, but the motion slows down in it.",
     ] {
@@ -211,7 +211,7 @@ fn a_rate_that_is_not_given_is_not_told_as_one() {
 /// The same sentence wherever a load that friction stops could be taken for one that does not jam.
 #[test]
 fn every_answer_on_a_load_says_how_to_ask_whether_it_jams() {
-    const HOW: &str = "Whether a greater push would keep it moving is a question about a drive: add one, or see `slideway hold`.";
+    const HOW: &str = "Whether a push keeps it moving: give the push as a drive, or ask `slideway hold`.";
     let told = |push: &str| -> Vec<String> {
         let model = Model::parse(&peg("0.3", push)).unwrap();
         let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 0.5))).unwrap();

@@ -8,8 +8,9 @@ use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
 use crate::motion::moving::cause::Cause;
 use crate::pattern::phase::{ContactPhase, JointPhase, Phase, sliding_joints};
+use crate::report::JointMode;
 use crate::report::number::against;
-use crate::solve::{joint_mode_in_words, mode_in_words};
+use crate::solve::{joint_mode, mode_in_words};
 use nalgebra::Vector2;
 
 /// The words of an event that changes nothing.
@@ -394,7 +395,8 @@ impl Words<'_> {
             let is_open = |contact: &ContactId| phase.is_open(self.mechanism, contact.index());
             let sign = |contact: &ContactId| if is_open(contact) { -1 } else { 1 };
             let signs: Vec<i8> = slider.contacts.iter().map(sign).collect();
-            return format!("{verb} {}", joint_mode_in_words(self.mechanism, slider, tangent, &signs));
+            let mode = joint_mode(self.mechanism, slider, tangent, &signs);
+            return format!("{verb} {}", JointMode::new(String::new(), mode).place());
         }
         let sign = |contact: &ContactId| match phase.contacts[contact.index()] {
             ContactPhase::Pressed(Side::Positive) => 1,

@@ -372,7 +372,7 @@ fn end_report(history: &History, options: &SimulateOptions, events: &[EventRepor
     if follows(Verdict::Unattainable) {
         words += " On the way it is in an unstable state, which a real mechanism leaves.";
     } else if follows(Verdict::Flutter) {
-        words += " On the way it flutters unless its contacts are damped.";
+        words += " On the way it may vibrate by itself (flutter) unless its contacts are damped.";
     }
     EndReport { kind: history.end.kind(), words, locked }
 }

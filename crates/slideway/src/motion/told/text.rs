@@ -299,7 +299,7 @@ fn row(name: &str, mut values: Vec<String>) -> Vec<String> {
 fn unsettled(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Unattainable => " (unstable: a real mechanism leaves this state)",
-        Verdict::Flutter => " (it flutters unless its contacts are damped)",
+        Verdict::Flutter => " (it may vibrate by itself (flutter) unless its contacts are damped)",
         _ => "",
     }
 }
@@ -308,7 +308,7 @@ fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Attainable => " (stable)",
         Verdict::Unattainable => " (unstable)",
-        Verdict::Flutter => " (it flutters)",
+        Verdict::Flutter => " (it may vibrate)",
         Verdict::Undecided | Verdict::NotComputed => "",
     }
 }

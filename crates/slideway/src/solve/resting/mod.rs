@@ -420,16 +420,14 @@ impl<'a> Resting<'a> {
         for (joint, start) in self.joints.iter().zip(&point.pattern.starts) {
             let name = self.name(joint);
             let Some(mode) = modes.iter_mut().find(|mode| mode.name == name) else { continue };
-            let starts = match (start, mechanism.slider(joint.joint)) {
+            match (start, mechanism.slider(joint.joint)) {
                 (Some(Start::Slips(sign)), Some(slider)) => {
-                    let (sign, sense) = if *sign < 0.0 { (-1, "backwards") } else { (1, "forwards") };
-                    mode.start = Some(format!("{}, slides {sense}", mode.mode));
-                    sliding_in_words(mechanism, configuration, slider, sign)
+                    let slip = if *sign < 0.0 { -1 } else { 1 };
+                    mode.slides(slip, &sliding_in_words(mechanism, configuration, slider, slip));
                 }
-                (Some(Start::Sticks), Some(slider)) => sticking_in_words(slider).to_owned(),
-                _ => continue,
-            };
-            mode.mode = format!("{}, {starts}", mode.mode);
+                (Some(Start::Sticks), Some(slider)) => mode.sticks(sticking_in_words(slider)),
+                _ => {}
+            }
         }
         modes
     }
