@@ -1,12 +1,11 @@
 //! The loop: a phase, an event, a decision, and so on.
 
+use super::landing::stop_at;
 use super::smooth::{Ended, Smooth};
-use super::stop::{self, Hit};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, JointId};
-use crate::mechanism::Mechanism;
-use crate::motion::decision::Blow;
+use crate::ids::ContactId;
+use crate::mechanism::{EndStop, Mechanism};
 use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
@@ -196,10 +195,10 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Why the simulation ends with these causes, if it does.
     fn terminal(&self, causes: &[Cause]) -> Option<End> {
         causes.iter().find_map(|cause| match cause {
-            Cause::TravelLimit { joint, greatest } => {
+            &Cause::TravelLimit { joint, greatest } => {
                 let mechanism = self.smooth.equations.mechanism;
-                let stops = stop::of_limit(mechanism, *joint, *greatest).is_some();
-                (!stops).then_some(End::TravelLimit(*joint))
+                let stops = stop_at(mechanism, EndStop { joint, greatest }).is_some();
+                (!stops).then_some(End::TravelLimit(joint))
             }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
             Cause::Touches(contact) if self.is_beside(*contact) => Some(End::BesideFace(*contact)),
@@ -226,7 +225,7 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Decides how the motion goes on, after impulses if it must; nothing is decided once the work is to end.
     fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
-        if self.hit(&mut causes)? | self.land(&mut causes)? {
+        if self.land(&mut causes)? {
             previous = None;
         }
         for _ in 0..MOST_IMPULSES {
@@ -289,49 +288,6 @@ impl<'a, 'm> Run<'a, 'm> {
         }
         self.tell(causes, Continuations::default(), None);
         Ok(Some(End::Jammed))
-    }
-
-    /// The impact of joints on their stops, if the causes tell of one.
-    fn hit(&mut self, causes: &mut Vec<Cause>) -> Result<bool, Faults> {
-        let mechanism = self.smooth.equations.mechanism;
-        let hits = stop::hits(mechanism, causes);
-        if hits.is_empty() {
-            return Ok(false);
-        }
-        if let Some(phase) = self.phase.clone() {
-            hits.iter().for_each(|hit| self.smooth.put_at(&phase, hit.joint, hit.displacement));
-        }
-        self.smooth.equations.place(self.smooth.time, &self.smooth.state);
-        let configuration = self.smooth.equations.configuration.clone();
-        let little = self.smooth.little_velocities();
-        let impact =
-            stop::impact_of(&hits, (mechanism, &configuration), (&little, self.work), self.decisions)?;
-        self.smooth.set_velocities(&impact.after.velocities);
-        let speeds = |joint: JointId| {
-            let speed = |at: &Configuration| {
-                mechanism.slider(joint).map_or(0.0, |slider| at.sliding(mechanism, slider).1.abs())
-            };
-            [speed(&configuration), speed(&impact.after)]
-        };
-        let is_over = |cause: &Cause| {
-            matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))
-        };
-        causes.retain(|cause| !is_over(cause));
-        for Blow { stops, energy_lost } in &impact.blows {
-            self.note_impulse(*energy_lost);
-            for (index, &(joint, _)) in stops.iter().enumerate() {
-                let greatest = hits.iter().any(|hit| hit.joint == joint && hit.greatest);
-                let energy_lost = (index == 0).then_some(*energy_lost);
-                causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost });
-            }
-        }
-        for Hit { joint, greatest, .. } in hits {
-            let is_told = |cause: &Cause| matches!(cause, Cause::Hits { joint: told, .. } if *told == joint);
-            if !causes.iter().any(is_told) {
-                causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost: Some(0.0) });
-            }
-        }
-        Ok(true)
     }
 
     pub(super) fn note_impulse(&mut self, energy_lost: f64) {
