@@ -350,6 +350,9 @@ impl<'s> System<'s> {
             let (Some(couple), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
             let Some(friction) = &self.friction[*k] else { continue };
             let half = couple.half_length / self.instant.units.length;
+            if half.is_infinite() {
+                continue;
+            }
             for slack in without_tipping(&friction.pressure, &self.output(row), half) {
                 add(Subject::Couple(*k), slack);
             }

@@ -166,27 +166,41 @@ impl<'m> Impact<'m> {
             if touches.iter().all(is_over) {
                 return Ok(course);
             }
-            self.go_on(&mut course, &touches)?;
-            if self.law == ImpactLaw::Moreau {
+            if self.go_on(&mut course, &touches)? || self.law == ImpactLaw::Moreau {
                 return Ok(course);
             }
         }
         Err(self.wedges(&self.touches(&course.configuration)))
     }
 
-    /// Follows the next part of a course.
-    fn go_on(&self, course: &mut Course, touches: &[Touch]) -> Result<(), Faults> {
-        let part = self.part_of(&course.configuration, touches)?;
-        let after = self.moved(&course.configuration, &part);
+    /// Follows the next part of a course; returns whether the only contact has returned the work that it has taken, with which the
+    /// course is over whatever its restitution.
+    fn go_on(&self, course: &mut Course, touches: &[Touch]) -> Result<bool, Faults> {
+        let mut part = self.part_of(&course.configuration, touches)?;
+        let rate = |configuration: &Configuration, contact: usize| {
+            configuration.gap(self.mechanism, ContactId(contact))[1]
+        };
+        let mut after = self.moved(&course.configuration, &part);
+        let mut is_even = false;
+        if let ([push], [_], ImpactLaw::Course) = (&part.pushes[..], &self.own[..], self.law) {
+            let [from, to] = [&course.configuration, &after].map(|at| rate(at, push.contact));
+            if let Some(even) = until_even(course.returned, push.impulse * part.length, [from, to]) {
+                part.length *= even;
+                after = self.moved(&course.configuration, &part);
+                is_even = true;
+            }
+        }
         for Push { contact, impulse, .. } in &part.pushes {
-            let rate =
-                |configuration: &Configuration| configuration.gap(self.mechanism, ContactId(*contact))[1];
-            course.returned += impulse * part.length * f64::midpoint(rate(&course.configuration), rate(&after));
+            let mean = f64::midpoint(rate(&course.configuration, *contact), rate(&after, *contact));
+            course.returned += impulse * part.length * mean;
             let own = course.impulses.iter_mut().find(|(k, _)| k == contact);
             own.into_iter().for_each(|(_, sum)| *sum += impulse * part.length);
         }
+        if is_even {
+            course.returned = 0.0;
+        }
         course.configuration = after;
-        Ok(())
+        Ok(is_even)
     }
 
     fn moved(&self, configuration: &Configuration, part: &Part) -> Configuration {
@@ -310,7 +324,7 @@ impl<'m> Impact<'m> {
             instant => instant?,
         };
         let upright = instant.joints.iter_mut().filter(|joint| self.upright.contains(&joint.id));
-        upright.for_each(|joint| joint.couple = None);
+        upright.filter_map(|joint| joint.couple.as_mut()).for_each(|couple| couple.half_length = f64::INFINITY);
         let instant = instant;
         let short_of = |k: usize| {
             let touch = touches.iter().find(|touch| touch.contact == k);
@@ -408,6 +422,18 @@ impl<'m> Impact<'m> {
         }
         Ok(all.into_iter().flatten().collect())
     }
+}
+
+/// The fraction of a part after which a contact has returned the work that it has taken, the root of `W + P (u p + (w - u) p^2/2)`
+/// with its impulse `P` in the part, in which the rate of its gap goes from `u` to `w`; none if it does not.
+fn until_even(returned: f64, impulse: f64, [from, to]: [f64; 2]) -> Option<f64> {
+    let (a, b) = (impulse * from, impulse * (to - from) / 2.0);
+    if returned > 0.0 || returned + a + b <= 0.0 {
+        return None;
+    }
+    let root = (a * a - 4.0 * b * returned).sqrt();
+    let part = if a > 0.0 { -2.0 * returned / (a + root) } else { (root - a) / (2.0 * b) };
+    (0.0..1.0).contains(&part).then_some(part)
 }
 
 /// Leaves of the states of a group that with the greatest margin; where hinges turn with friction, those in which most stays at
