@@ -6,7 +6,9 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::{EndStop, Mechanism};
-use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
+use crate::motion::decision::rules::{
+    Continuation, Continuations, Decisions, EventInstant, HaltingImpulse,
+};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
 use crate::motion::options::SimulateOptions;
@@ -257,7 +259,12 @@ impl<'a, 'm> Run<'a, 'm> {
             }
             without_ended(&self.smooth.equations, &mut successors.list, &causes, previous.as_ref());
             if !successors.list.is_empty() {
+                if causes.contains(&Cause::Locks) && mechanism.has_one_sided() {
+                    successors.list.extend(self.after_jam(&instant)?);
+                }
                 let taken = self.choose(&successors.list)?;
+                let impulse = taken.and_then(|taken| successors.list[taken].impulse.clone());
+                impulse.into_iter().for_each(|impulse| self.jam(&impulse, &mut causes));
                 // Where its normal force vanishes, so does the room of a guided slider to tip: it goes on at the other face.
                 causes.retain(|cause| !matches!(cause, Cause::Tips(_)));
                 self.tell(causes, successors, taken);
@@ -280,14 +287,44 @@ impl<'a, 'm> Run<'a, 'm> {
                 return Ok(None);
             }
             let Some(jam) = jam else { break };
-            self.smooth.set_velocities(&jam.velocities);
-            self.note_impulse(jam.energy_lost);
-            causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
-            causes.push(Cause::Jams { energy_lost: jam.energy_lost });
+            self.jam(&jam, &mut causes);
             previous = None;
         }
         self.tell(causes, Continuations::default(), None);
         Ok(Some(End::Jammed))
+    }
+
+    /// Lets the impulse of a jam act.
+    fn jam(&mut self, impulse: &HaltingImpulse, causes: &mut Vec<Cause>) {
+        self.smooth.set_velocities(&impulse.velocities);
+        self.note_impulse(impulse.energy_lost);
+        causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
+        causes.push(Cause::Jams { energy_lost: impulse.energy_lost });
+    }
+
+    /// The phases after a jam, where a contact that may lift off comes to the end of a mode with a force beyond all bounds: its
+    /// impulse is finite, and what follows is open.
+    ///
+    /// # Errors
+    /// Whatever keeps the impulse or what follows it from being decided.
+    fn after_jam(&mut self, instant: &EventInstant<'_>) -> Result<Vec<Continuation>, Faults> {
+        let Some(impulse) = self.decisions.jam(instant)? else { return Ok(Vec::new()) };
+        self.smooth.set_velocities(&impulse.velocities);
+        let configuration = self.smooth.equations.configuration.clone();
+        let signs = self.signs(&self.stopped(&[], None));
+        let (signs, spins) = signs.split_at(self.smooth.equations.sliders.len());
+        let after = EventInstant {
+            configuration: &configuration,
+            signs,
+            spins,
+            zero: &[],
+            previous: None,
+            ..*instant
+        };
+        let found = self.decisions.successors(&after);
+        self.smooth.set_velocities(&instant.configuration.velocities);
+        let with = |one: Continuation| Continuation { impulse: Some(impulse.clone()), ..one };
+        Ok(found?.list.into_iter().map(with).collect())
     }
 
     pub(super) fn note_impulse(&mut self, energy_lost: f64) {
