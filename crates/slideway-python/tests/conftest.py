@@ -40,6 +40,7 @@ DIMENSIONS = {
     "painleve-klein": ("phi", "20 deg", "40 deg"),
     "peg-in-hole": ("off", "20 mm", "30 mm"),
     "quick-return": ("Q", "500 N", "700 N"),
+    "rattling-drawer": ("L", "350 mm", "500 mm"),
     "rod-on-floor": ("l", "0.4 m", "0.6 m"),
     "scotch-yoke": ("L", "100 mm", "140 mm"),
     "screw": ("d_mean", "20 mm", "23 mm"),

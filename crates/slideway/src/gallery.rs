@@ -54,6 +54,7 @@ pub const MODELS: &[GalleryModel] = gallery![
     "nip-of-rolls",
     "shaft-in-v-block",
     "woodpecker",
+    "rattling-drawer",
 ];
 
 impl GalleryModel {

@@ -4,6 +4,7 @@
 //! drawing, in metres; loads may still hold formulas of coordinates, rates and time.
 
 mod corner;
+mod end_stop;
 mod evaluation;
 mod excess;
 mod loose;
@@ -23,6 +24,7 @@ use crate::model::{
 };
 use crate::units::Units;
 pub(crate) use corner::BareCorner;
+pub(crate) use end_stop::EndStop;
 use evaluation::Evaluation;
 pub use excess::Excess;
 use nalgebra::Vector2;

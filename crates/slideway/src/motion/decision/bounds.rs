@@ -28,7 +28,6 @@ impl Instant<'_> {
             },
             stopped,
             opposes: None,
-            pushed: Vec::new(),
         }
     }
 }

@@ -75,6 +75,11 @@ impl<'s> Impulses<'s> {
                 self.outputs.base[row] = (self.outputs.base[row] + before) / self.time(joint);
             }
         }
+        for hinge in 0..instant.hinges.len() {
+            let first = instant.turning_output(hinge);
+            let time = self.time(instant.number_of(hinge));
+            self.outputs.base.rows_mut(first, 3).unscale_mut(time);
+        }
     }
 
     /// Puts the velocities of sliding joints after the impulses in the place of their changes: what sticks has none, and friction
@@ -101,8 +106,7 @@ impl<'s> Impulses<'s> {
         self.speeds[number] / self.instant.units_of_rubbing(number).acceleration
     }
 
-    /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick or
-    /// are pushed by their stops.
+    /// The question for a state in which sliding velocities jump by these amounts (m/s) where joints stick.
     pub(super) fn question<'q>(&'q self, jumps: &[f64], stopped: &'q [bool]) -> Question<'q> {
         let wanted =
             jumps.iter().zip(&self.speeds).map(|(jump, speed)| if *jump == 0.0 { 0.0 } else { jump / speed });
@@ -116,7 +120,6 @@ impl<'s> Impulses<'s> {
             sides: self.instant.mechanism.contacts.iter().map(sides).collect(),
             stopped,
             opposes: None,
-            pushed: Vec::new(),
         }
     }
 

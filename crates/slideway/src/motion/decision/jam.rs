@@ -38,9 +38,6 @@ pub struct Impulse {
     pub(crate) margin: f64,
     /// The jumps of all unknowns.
     pub(super) jumps: DVector<f64>,
-    /// The velocities of the sliding joints and hinges with friction afterwards (m/s), those of hinges in sizes of the
-    /// mechanism.
-    pub(super) velocities: Vec<f64>,
 }
 
 impl From<Impulse> for HaltingImpulse {
@@ -198,7 +195,6 @@ impl ImpulseSearch<'_> {
             sliding_velocities: velocities[..instant.joints.len()].to_vec(),
             margin: state.least(),
             jumps,
-            velocities,
         })
     }
 

@@ -14,7 +14,7 @@ use nalgebra::DVector;
 
 /// A joint nearer to its end stop than this, in sizes of the mechanism, touches it; positions have rounding
 /// errors.
-pub(in crate::motion) const TOUCHES: f64 = 1e-11;
+pub(super) const TOUCHES: f64 = 1e-11;
 /// A sliding joint at an instant.
 #[derive(Debug, Clone)]
 pub(super) struct SlidingJoint {
@@ -93,19 +93,6 @@ fn spin(mechanism: &Mechanism, configuration: &Configuration, joint: JointId) ->
     mechanism.hinge(joint).map_or(0.0, |[first, second]| {
         configuration.angular_velocity(first.frame) - configuration.angular_velocity(second.frame)
     })
-}
-
-/// The velocities of the sliding joints, then of the hinges with friction (m/s, rad/s).
-pub(in crate::motion) fn relative_velocities(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-) -> Vec<f64> {
-    let sliders = mechanism.joints.iter().filter_map(|joint| match &joint.kind {
-        JointKind::Slider(slider) => Some(configuration.sliding(mechanism, slider).1),
-        JointKind::Hinge(_) => None,
-    });
-    let circles = mechanism.friction_circles.iter();
-    sliders.chain(circles.map(|circle| spin(mechanism, configuration, circle.joint))).collect()
 }
 
 /// The sliding joints of a mechanism, in the order of its joints.

@@ -92,12 +92,12 @@ pub(super) use assessment::ASSESSED;
 pub(super) use determined::{DeterminedForces, determined_forces};
 pub(super) use elastic::verdict_on;
 pub use impact::{Blow, Impact, impact};
-pub(super) use impact::{Landing, impact_within, landing};
+#[cfg(test)]
+pub(super) use impact::impact_within;
+pub(super) use impact::{FaceBlow, Landing, landing};
 pub use jam::{Impulse, Jam, jam};
-pub(super) use joints::{TOUCHES, relative_velocities};
 pub use rules::Outlook;
 pub use state::PhaseState;
-pub(super) use sticking::sliding_accelerations;
 pub use sticking::{Sticking, phase_state, sticking, sticking_margin};
 pub(super) use successors::continuations;
 pub use successors::{Successor, Successors, TippingPhase, successors};

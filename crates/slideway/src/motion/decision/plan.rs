@@ -240,7 +240,6 @@ fn slacks(instant: &Instant<'_>, system: &GroupPattern<'_>) -> Option<Vec<Affine
         sides: Vec::new(),
         stopped: system.stopped,
         opposes: None,
-        pushed: Vec::new(),
     };
     let equations = System::new(instant, &question, system.phase, system.group)?;
     let counts = |inequality: &Inequality| {

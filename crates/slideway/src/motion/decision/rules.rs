@@ -72,6 +72,8 @@ pub struct Continuation {
     pub verdict: Verdict,
     /// Whether it continues the present motion without a jump in the forces.
     pub(crate) continues: bool,
+    /// The impulse without collision after which it begins, where there is one.
+    pub(crate) impulse: Option<HaltingImpulse>,
 }
 
 /// The phases in which the motion can continue.

@@ -78,19 +78,6 @@ pub fn sticking(
     Ok(Some(Sticking { margin: assessment.margin, phase: assessment.phase, state }))
 }
 
-/// The sliding acceleration of each joint in a phase (m/s^2); `None` as of [`phase_state`].
-///
-/// # Errors
-/// As [`sticking_margin`].
-pub(in crate::motion) fn sliding_accelerations(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    phase: &Phase,
-) -> Result<Option<Vec<f64>>, Faults> {
-    let state = phase_state(mechanism, configuration, phase)?;
-    Ok(state.map(|state| state.sliding_accelerations))
-}
-
 /// Accelerations and reactions of a phase while it lasts, whether it is admissible or not; `None` if its
 /// equations contradict each other (a mode with D = 0, or joints that cannot all stick at their velocities).
 ///

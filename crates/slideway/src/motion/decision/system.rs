@@ -59,9 +59,6 @@ pub(super) struct Question<'q> {
     pub(super) stopped: &'q [bool],
     /// A joint or hinge that sticks only at the end, with the sign of the sliding velocity that its friction opposes.
     pub(super) opposes: Option<(usize, f64)>,
-    /// Sliding joints that are pushed by the stops that they touch, so that they, too, have the required
-    /// acceleration.
-    pub(super) pushed: Vec<usize>,
 }
 
 /// A pattern with its equations solved as far as possible.
@@ -274,11 +271,9 @@ impl<'s> System<'s> {
         hinge.radii[which] / hinge.units.length
     }
 
-    /// The joints and hinges whose acceleration is prescribed: those that stick, and those that are pushed.
+    /// The joints and hinges whose acceleration is prescribed: those that stick.
     fn bound_joints(&self) -> Vec<usize> {
-        let is_bound = |joint: &usize| {
-            self.phase.joints[*joint] == JointPhase::Sticking || self.question.pushed.contains(joint)
-        };
+        let is_bound = |joint: &usize| self.phase.joints[*joint] == JointPhase::Sticking;
         let hinges = self.group.hinges.iter().filter(|hinge| self.turns(**hinge) == 0.0);
         let hinges = hinges.map(|hinge| self.instant.number_of(*hinge));
         self.group.joints.iter().copied().filter(is_bound).chain(hinges).collect()
@@ -355,6 +350,9 @@ impl<'s> System<'s> {
             let (Some(couple), [k]) = (joint.couple, &joint.contacts[..]) else { continue };
             let Some(friction) = &self.friction[*k] else { continue };
             let half = couple.half_length / self.instant.units.length;
+            if half.is_infinite() {
+                continue;
+            }
             for slack in without_tipping(&friction.pressure, &self.output(row), half) {
                 add(Subject::Couple(*k), slack);
             }
@@ -368,7 +366,7 @@ impl<'s> System<'s> {
                 && self.instant.joints[joint].has_friction
             {
                 add(Subject::Slip(joint), self.acceleration(joint).times(sign));
-                if sign == self.instant.joints[joint].stop && !self.question.pushed.contains(&joint) {
+                if sign == self.instant.joints[joint].stop {
                     // Nothing slides into its stop.
                     add(Subject::Slip(joint), AffineExpression::constant(-1.0));
                 }

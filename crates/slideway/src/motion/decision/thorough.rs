@@ -115,6 +115,7 @@ fn continuations(instant: &EventInstant<'_>) -> Result<Continuations, Faults> {
         phase: successor.phase,
         verdict: successor.attainability.verdict,
         continues: successor.continues,
+        impulse: None,
     };
     let left_out = !found.complete || !found.unsolved.is_empty();
     Ok(Continuations { left_out, list: found.list.into_iter().map(one).collect() })

@@ -5,7 +5,7 @@
 //! x = b + d^sigma + H^sigma w      w = |N_k| of the contacts that slide, |R_j| of the hinges that turn
 //! ```
 //!
-//! What sticks, or is pushed by its stop, is held by a force or couple of its own, as far as no other holds it already.
+//! What sticks is held by a force or couple of its own, as far as no other holds it already.
 
 use super::BOUNDARY;
 use super::instant::Instant;
@@ -126,6 +126,8 @@ impl<'t> Turning<'t> {
                 ContactState::Positive => vec![ContactPhase::Pressed(Side::Positive)],
                 ContactState::Negative => vec![ContactPhase::Pressed(Side::Negative)],
             };
+            let options: Vec<ContactPhase> =
+                options.into_iter().filter(|option| self.question.sides[*k].contains(option)).collect();
             let with = |phase: &Phase, option: &ContactPhase| {
                 let mut phase = phase.clone();
                 phase.contacts[*k] = *option;
@@ -157,7 +159,7 @@ impl<'t> Turning<'t> {
     }
 }
 
-/// What holds those that stick or are pushed.
+/// What holds those that stick.
 struct Held {
     /// The rows of their accelerations, and how all outputs respond to a force at each.
     rows: Vec<usize>,
@@ -177,11 +179,8 @@ impl Held {
             None => phase.joints[*number] == JointPhase::Sticking,
             Some(hinge) => phase.hinges[hinge].state == JointPhase::Sticking,
         };
-        let members = || group.members(instant.joints.len());
-        let pushed = members().filter(|number| question.pushed.contains(number));
-        let sticking = members().filter(|number| sticks(number) && !question.pushed.contains(number));
         let mut held: Vec<usize> = Vec::new();
-        for number in pushed.chain(sticking) {
+        for number in group.members(instant.joints.len()).filter(sticks) {
             if work.is_over() {
                 return None;
             }

@@ -1,10 +1,9 @@
 //! What follows the motion: phase by phase (`run.rs`), step by step within a phase (`smooth/`), and through
-//! impacts on end stops (`stop.rs`) and on faces (`landing.rs`).
+//! impacts on faces and end stops (`landing.rs`).
 
 mod landing;
 pub(in crate::motion) mod run;
 pub(in crate::motion) mod smooth;
-pub(in crate::motion) mod stop;
 
 use super::decision::rules::Decisions;
 use super::decision::thorough::Thorough;

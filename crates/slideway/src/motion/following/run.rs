@@ -1,13 +1,14 @@
 //! The loop: a phase, an event, a decision, and so on.
 
+use super::landing::stop_at;
 use super::smooth::{Ended, Smooth};
-use super::stop::{self, Hit};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, JointId};
-use crate::mechanism::Mechanism;
-use crate::motion::decision::Blow;
-use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant};
+use crate::ids::ContactId;
+use crate::mechanism::{EndStop, Mechanism};
+use crate::motion::decision::rules::{
+    Continuation, Continuations, Decisions, EventInstant, HaltingImpulse,
+};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
 use crate::motion::options::SimulateOptions;
@@ -196,10 +197,10 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Why the simulation ends with these causes, if it does.
     fn terminal(&self, causes: &[Cause]) -> Option<End> {
         causes.iter().find_map(|cause| match cause {
-            Cause::TravelLimit { joint, greatest } => {
+            &Cause::TravelLimit { joint, greatest } => {
                 let mechanism = self.smooth.equations.mechanism;
-                let stops = stop::of_limit(mechanism, *joint, *greatest).is_some();
-                (!stops).then_some(End::TravelLimit(*joint))
+                let stops = stop_at(mechanism, EndStop { joint, greatest }).is_some();
+                (!stops).then_some(End::TravelLimit(joint))
             }
             Cause::OverlapVanishes(joint) => Some(End::OverlapVanished(*joint)),
             Cause::Touches(contact) if self.is_beside(*contact) => Some(End::BesideFace(*contact)),
@@ -226,7 +227,7 @@ impl<'a, 'm> Run<'a, 'm> {
     /// Decides how the motion goes on, after impulses if it must; nothing is decided once the work is to end.
     fn decided(&mut self, mut causes: Vec<Cause>) -> Result<Option<End>, Faults> {
         let mut previous = self.phase.as_ref().map(|phase| self.smooth.equations.with_present_forces(phase));
-        if self.hit(&mut causes)? | self.land(&mut causes)? {
+        if self.land(&mut causes)? {
             previous = None;
         }
         for _ in 0..MOST_IMPULSES {
@@ -258,7 +259,12 @@ impl<'a, 'm> Run<'a, 'm> {
             }
             without_ended(&self.smooth.equations, &mut successors.list, &causes, previous.as_ref());
             if !successors.list.is_empty() {
+                if causes.contains(&Cause::Locks) && mechanism.has_one_sided() {
+                    successors.list.extend(self.after_jam(&instant)?);
+                }
                 let taken = self.choose(&successors.list)?;
+                let impulse = taken.and_then(|taken| successors.list[taken].impulse.clone());
+                impulse.into_iter().for_each(|impulse| self.jam(&impulse, &mut causes));
                 // Where its normal force vanishes, so does the room of a guided slider to tip: it goes on at the other face.
                 causes.retain(|cause| !matches!(cause, Cause::Tips(_)));
                 self.tell(causes, successors, taken);
@@ -281,57 +287,44 @@ impl<'a, 'm> Run<'a, 'm> {
                 return Ok(None);
             }
             let Some(jam) = jam else { break };
-            self.smooth.set_velocities(&jam.velocities);
-            self.note_impulse(jam.energy_lost);
-            causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
-            causes.push(Cause::Jams { energy_lost: jam.energy_lost });
+            self.jam(&jam, &mut causes);
             previous = None;
         }
         self.tell(causes, Continuations::default(), None);
         Ok(Some(End::Jammed))
     }
 
-    /// The impact of joints on their stops, if the causes tell of one.
-    fn hit(&mut self, causes: &mut Vec<Cause>) -> Result<bool, Faults> {
-        let mechanism = self.smooth.equations.mechanism;
-        let hits = stop::hits(mechanism, causes);
-        if hits.is_empty() {
-            return Ok(false);
-        }
-        if let Some(phase) = self.phase.clone() {
-            hits.iter().for_each(|hit| self.smooth.put_at(&phase, hit.joint, hit.displacement));
-        }
-        self.smooth.equations.place(self.smooth.time, &self.smooth.state);
+    /// Lets the impulse of a jam act.
+    fn jam(&mut self, impulse: &HaltingImpulse, causes: &mut Vec<Cause>) {
+        self.smooth.set_velocities(&impulse.velocities);
+        self.note_impulse(impulse.energy_lost);
+        causes.retain(|cause| !matches!(cause, Cause::Stops(_) | Cause::StopsTurning(_)));
+        causes.push(Cause::Jams { energy_lost: impulse.energy_lost });
+    }
+
+    /// The phases after a jam, where a contact that may lift off comes to the end of a mode with a force beyond all bounds: its
+    /// impulse is finite, and what follows is open.
+    ///
+    /// # Errors
+    /// Whatever keeps the impulse or what follows it from being decided.
+    fn after_jam(&mut self, instant: &EventInstant<'_>) -> Result<Vec<Continuation>, Faults> {
+        let Some(impulse) = self.decisions.jam(instant)? else { return Ok(Vec::new()) };
+        self.smooth.set_velocities(&impulse.velocities);
         let configuration = self.smooth.equations.configuration.clone();
-        let little = self.smooth.little_velocities();
-        let impact =
-            stop::impact_of(&hits, (mechanism, &configuration), (&little, self.work), self.decisions)?;
-        self.smooth.set_velocities(&impact.after.velocities);
-        let speeds = |joint: JointId| {
-            let speed = |at: &Configuration| {
-                mechanism.slider(joint).map_or(0.0, |slider| at.sliding(mechanism, slider).1.abs())
-            };
-            [speed(&configuration), speed(&impact.after)]
+        let signs = self.signs(&self.stopped(&[], None));
+        let (signs, spins) = signs.split_at(self.smooth.equations.sliders.len());
+        let after = EventInstant {
+            configuration: &configuration,
+            signs,
+            spins,
+            zero: &[],
+            previous: None,
+            ..*instant
         };
-        let is_over = |cause: &Cause| {
-            matches!(cause, Cause::TravelLimit { .. } | Cause::Stops(_) | Cause::StopsTurning(_))
-        };
-        causes.retain(|cause| !is_over(cause));
-        for Blow { stops, energy_lost } in &impact.blows {
-            self.note_impulse(*energy_lost);
-            for (index, &(joint, _)) in stops.iter().enumerate() {
-                let greatest = hits.iter().any(|hit| hit.joint == joint && hit.greatest);
-                let energy_lost = (index == 0).then_some(*energy_lost);
-                causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost });
-            }
-        }
-        for Hit { joint, greatest, .. } in hits {
-            let is_told = |cause: &Cause| matches!(cause, Cause::Hits { joint: told, .. } if *told == joint);
-            if !causes.iter().any(is_told) {
-                causes.push(Cause::Hits { joint, greatest, speeds: speeds(joint), energy_lost: Some(0.0) });
-            }
-        }
-        Ok(true)
+        let found = self.decisions.successors(&after);
+        self.smooth.set_velocities(&instant.configuration.velocities);
+        let with = |one: Continuation| Continuation { impulse: Some(impulse.clone()), ..one };
+        Ok(found?.list.into_iter().map(with).collect())
     }
 
     pub(super) fn note_impulse(&mut self, energy_lost: f64) {

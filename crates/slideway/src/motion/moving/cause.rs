@@ -168,7 +168,7 @@ impl Cause {
             Watched::Determinant => Self::Locks,
             Watched::ReactionLimit(contact) => Self::ReactionLimit(contact),
             Watched::Couple(joint) => Self::Tips(joint),
-            Watched::Sticking | Watched::Circles => Self::Slips,
+            Watched::Sticking | Watched::Room => Self::Slips,
             Watched::Overlap(joint) => Self::OverlapVanishes(joint),
             Watched::Travel(joint, end) => Self::TravelLimit { joint, greatest: end > 0.0 },
             Watched::User(index, _) => Self::User(index, names(index)),

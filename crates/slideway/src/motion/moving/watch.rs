@@ -53,9 +53,8 @@ pub(in crate::motion) enum Watched {
     Couple(JointId),
     /// By how much the sticking joints can still stick.
     Sticking,
-    /// By how much the couples of the hinges that stick stay within their friction circles, where statics determines
-    /// them.
-    Circles,
+    /// By how much what sticks does so, where the equations determine its forces.
+    Room,
     /// The supported length of a block slider.
     Overlap(JointId),
     /// The gap of a contact that is open.
@@ -90,7 +89,7 @@ impl Watched {
             | Self::Determinant
             | Self::ReactionLimit(_)
             | Self::Couple(_)
-            | Self::Circles => Needs::Forces,
+            | Self::Room => Needs::Forces,
             Self::Sticking | Self::HeldReactions => Needs::Standstill,
             Self::Velocity(..)
             | Self::Spin(..)
@@ -173,9 +172,10 @@ impl<'o> Watch<'o> {
             }
         }
         if phase.sticks() {
-            let determined = equations.room_of_hinges(phase).is_some();
-            self.list.push(if determined { Watched::Circles } else { Watched::Sticking });
-            if self.reaction_limit.is_some() && !determined {
+            let determined = equations.room_of_sticking(phase).is_some();
+            self.list.push(if determined { Watched::Room } else { Watched::Sticking });
+            let undetermined = !determined || phase.joints.contains(&JointPhase::Sticking);
+            if self.reaction_limit.is_some() && undetermined {
                 self.list.retain(|watched| !matches!(watched, Watched::ReactionLimit(_)));
                 self.list.push(Watched::HeldReactions);
             }
@@ -269,7 +269,7 @@ impl<'o> Watch<'o> {
                 let force = pressing_force(slider.contacts[0], phase, equations);
                 force * slider.greatest_couple(1.0) - equations.reaction(Reaction::Couple(joint)).abs()
             }
-            Watched::Circles => equations.room_of_hinges(phase).unwrap_or(0.0),
+            Watched::Room => equations.room_of_sticking(phase).unwrap_or(0.0),
             Watched::Sticking | Watched::HeldReactions | Watched::Relation(_) => 0.0,
             Watched::Overlap(joint) => {
                 let slider = slider(joint);
@@ -299,7 +299,7 @@ impl<'o> Watch<'o> {
             | Watched::ReactionLimit(_)
             | Watched::HeldReactions => force,
             Watched::Couple(joint) => force * mechanism.slider(joint).map_or(0.0, |slider| slider.length),
-            Watched::Circles => force * mechanism.size,
+            Watched::Room => force * mechanism.size,
             Watched::Share(..) => FORCE_TOLERANCE,
             Watched::Velocity(..) => velocity,
             Watched::Spin(..) => velocity / mechanism.size,

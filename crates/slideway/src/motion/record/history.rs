@@ -323,7 +323,7 @@ impl Reader<'_> {
             sliding_velocity: equations.contacts[k].sliding_velocity,
             share: equations.share(k),
         };
-        let is_determined = equations.room_of_hinges(&self.history.phases[phase].phase).is_some();
+        let is_determined = equations.room_of_sticking(&self.history.phases[phase].phase).is_some();
         let hinge = |hinge: usize| HingeSample {
             is_determined,
             force: equations.hinge_force(hinge).unwrap_or_default(),

@@ -427,13 +427,26 @@ fn event_report(history: &History, event: &Event, reader: &mut Reader<'_>) -> Ev
 }
 
 /// The modes in which the motion could go on after an event.
+/// How the words of a branch begin that an impulse without collision begins.
+pub(super) const JAMS: &str = "it jams: an impulse stops it";
+
 fn branches(history: &History, event: &Event, reader: &mut Reader<'_>) -> Vec<BranchReport> {
     let mechanism = &history.mechanism;
     let configuration = reader.configuration(event.time).unwrap_or(&history.initial);
+    let words = |successor: &Continuation| {
+        let words = modes_in_words(mechanism, configuration, &successor.phase);
+        match &successor.impulse {
+            None => words,
+            Some(impulse) => {
+                let lost = mechanism.units.of("J").brief(impulse.energy_lost);
+                format!("{JAMS} and dissipates {lost}; {words}")
+            }
+        }
+    };
     let branch = |(index, successor): (usize, &Continuation)| BranchReport {
         number: index + 1,
         mode: successor.phase.pattern(mechanism),
-        words: modes_in_words(mechanism, configuration, &successor.phase),
+        words: words(successor),
         taken: event.taken == Some(index),
         continues: successor.continues,
         attainable: successor.verdict,

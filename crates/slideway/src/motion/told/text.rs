@@ -1,7 +1,7 @@
 //! A motion as readable text: a log of events, and the accuracy.
 
 use super::log::{LogLine, lines};
-use super::report::{EndKind, EventReport, Named, SimulateReport};
+use super::report::{EndKind, EventReport, JAMS, Named, SimulateReport};
 use super::tree::TreeReport;
 use crate::report::number::{beside, number};
 use crate::report::page::Page;
@@ -198,7 +198,7 @@ impl Page<'_, SimulateReport> {
         let mut line = |text: &str| self.hung(&format!("  {below}{text}"), "");
         for branch in event.branches.iter().filter(|branch| !branch.taken) {
             let jump = if branch.continues { "" } else { "; its forces jump" };
-            let sticks = branch.mode.chars().all(|sign| sign == '=');
+            let sticks = !branch.words.starts_with(JAMS) && branch.mode.chars().all(|sign| sign == '=');
             let otherwise = if sticks { "it could also stick" } else { &branch.words };
             let signs = if details { format!(", signs {}", spaced(&branch.mode)) } else { String::new() };
             let verdict = verdict(branch.attainable);

@@ -10,7 +10,7 @@ use super::{Equations, Failure, Sticks};
 use crate::ids::{Frame, JointId};
 use crate::kinetics::{Layout, Reaction};
 use crate::mechanism::{CoordinateKind, Mechanism};
-use crate::pattern::{JointPhase, Phase};
+use crate::pattern::Phase;
 
 /// More steps of Newton's method are not taken.
 const MOST_STEPS: usize = 12;
@@ -187,23 +187,6 @@ impl Equations<'_> {
     /// The joints of the hinges with friction.
     pub(in crate::motion) fn hinge_joints(&self) -> impl Iterator<Item = JointId> + '_ {
         self.hinges.iter().map(|hinge| hinge.joint)
-    }
-
-    /// By how much the couples of the hinges that stick stay within their friction circles, the least of
-    /// `r_static |R| - |M|` (N m); nothing where something that sticks leaves couples or friction open.
-    pub(in crate::motion) fn room_of_hinges(&self, phase: &Phase) -> Option<f64> {
-        if phase.joints.contains(&JointPhase::Sticking) {
-            return None;
-        }
-        let mut least = f64::INFINITY;
-        for (index, circle) in self.mechanism.friction_circles.iter().enumerate() {
-            if phase.hinges[index].state == JointPhase::Sticking {
-                let room =
-                    circle.static_radius * norm(self.hinge_force(index)?) - self.hinge_couple(index)?.abs();
-                least = least.min(room);
-            }
-        }
-        Some(least)
     }
 }
 

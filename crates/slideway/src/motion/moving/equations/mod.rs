@@ -24,6 +24,7 @@ mod hinges;
 mod phase;
 mod projection;
 mod rest;
+mod room;
 
 use hinges::{RoughHinge, norm};
 pub(in crate::motion) use rest::{bodies_of_drive, independent, joint_rests};

@@ -18,69 +18,36 @@
 //! The impact is over at latest when the contacts have returned the work that they have taken: where they would return more, all
 //! `e` are reduced in proportion until they return as much, so that kinetic energy never grows.
 
+use super::rates;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::ContactId;
+use crate::ids::{ContactId, JointId};
 use crate::kinetics::Reaction;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, body_of};
 use crate::motion::decision::assessment::{Assessment, PRESSED};
 use crate::motion::decision::impulse::{AT_REST, Impulses, jumped};
 use crate::motion::decision::instant::Instant;
-use crate::motion::decision::joints::TOUCHES;
-use crate::motion::decision::lifting::{Touching, least_flight, subsets};
+use crate::motion::decision::jam::{Jam, jam_within};
+use crate::motion::decision::lifting::{Touching, subsets};
+use crate::motion::decision::outputs::Group;
 use crate::motion::decision::parts::SAME;
+use crate::motion::moving::connected::connected;
 use crate::motion::moving::energy::kinetic;
 use crate::motion::options::ImpactLaw;
 use crate::pattern::JointPhase;
 use crate::progress::Work;
 use nalgebra::DVector;
 
-/// The state after an impact, and the kinetic energy that is lost (J).
-#[derive(Debug, Clone)]
-pub(in crate::motion) struct Landing {
-    pub(in crate::motion) after: Configuration,
-    pub(in crate::motion) energy_lost: f64,
-}
-
-/// The impact of the contacts whose gaps are zero and close.
-///
-/// # Errors
-/// Two sliders that are pressed by nothing, an impact that friction turns into a jam, one with several outcomes, more states than
-/// are tried.
-pub(in crate::motion) fn landing(
-    mechanism: &Mechanism,
-    configuration: &Configuration,
-    law: ImpactLaw,
-    work: Work<'_>,
-) -> Result<Landing, Faults> {
-    let least = least_flight(mechanism, configuration)?;
-    let mut impact = Impact { mechanism, before: configuration, resting: Vec::new(), part: 1.0, law, work };
-    loop {
-        let after = impact.outcome()?;
-        let rests = |(k, rate): &(usize, f64)| !impact.resting.contains(k) && *rate > 0.0 && *rate <= least;
-        let further: Vec<usize> =
-            rates(mechanism, &after).into_iter().filter(rests).map(|(k, _)| k).collect();
-        if further.is_empty() {
-            let energy_lost = kinetic(mechanism, configuration) - kinetic(mechanism, &after);
-            return Ok(Landing { after, energy_lost });
-        }
-        impact.resting.extend(further);
-    }
-}
-
-/// The contacts whose gaps are zero, with the rates of these (m/s).
-fn rates(mechanism: &Mechanism, configuration: &Configuration) -> Vec<(usize, f64)> {
-    let gaps = mechanism.one_sided().map(|contact| (contact.index(), configuration.gap(mechanism, contact)));
-    let touching = gaps.filter(|(_, [gap, _])| *gap <= TOUCHES * mechanism.size);
-    touching.map(|(k, [_, rate])| (k, rate)).collect()
-}
-
-/// An impact of a mechanism.
-struct Impact<'m> {
-    mechanism: &'m Mechanism,
-    before: &'m Configuration,
-    /// The contacts that come to rest at their faces.
-    resting: Vec<usize>,
+/// An impact of bodies that are connected.
+pub(super) struct Impact<'m> {
+    pub(super) mechanism: &'m Mechanism,
+    pub(super) before: &'m Configuration,
+    /// The contacts whose gaps are zero.
+    pub(super) own: Vec<usize>,
+    /// Of these those that come to rest at their faces.
+    pub(super) resting: Vec<usize>,
+    /// The guided sliders of which it does not count whether they would tip.
+    pub(super) upright: Vec<JointId>,
     /// The part of all restitutions with which contacts leave their faces.
     part: f64,
     law: ImpactLaw,
@@ -98,8 +65,10 @@ struct Touch {
 }
 
 /// The course of an impact until all gaps have the rates of its end.
-struct Course {
-    after: Configuration,
+pub(super) struct Course {
+    pub(super) configuration: Configuration,
+    /// Of the contacts whose gaps are zero, in their order (N s).
+    pub(super) impulses: Vec<(usize, f64)>,
     /// The work that the contacts have returned, less what they have taken (J).
     returned: f64,
 }
@@ -132,12 +101,22 @@ enum Towards {
     Wedged,
 }
 
-impl Impact<'_> {
-    /// The state afterwards, in which contacts have returned no more work than they have taken.
-    fn outcome(&mut self) -> Result<Configuration, Faults> {
+impl<'m> Impact<'m> {
+    /// The impact of these contacts, whose gaps are zero.
+    pub(super) fn new(
+        mechanism: &'m Mechanism,
+        before: &'m Configuration,
+        (own, law, work): (Vec<usize>, ImpactLaw, Work<'m>),
+    ) -> Self {
+        let (resting, upright) = (Vec::new(), Vec::new());
+        Self { mechanism, before, own, resting, upright, part: 1.0, law, work }
+    }
+
+    /// The course in which contacts return no more work than they have taken.
+    pub(super) fn outcome(&mut self) -> Result<Course, Faults> {
         self.part = 1.0;
         match self.course() {
-            Ok(course) if course.returned <= 0.0 || self.law == ImpactLaw::Moreau => return Ok(course.after),
+            Ok(course) if course.returned <= 0.0 || self.law == ImpactLaw::Moreau => return Ok(course),
             Err(faults) if !self.bounces() => return Err(faults),
             _ => {}
         }
@@ -151,7 +130,7 @@ impl Impact<'_> {
                 _ => beyond = self.part,
             }
         }
-        Ok(best.after)
+        Ok(best)
     }
 
     /// Returns whether a contact that closes has a restitution.
@@ -168,16 +147,17 @@ impl Impact<'_> {
             let restitution = if bounces { self.mechanism.contacts[contact].restitution } else { 0.0 };
             Touch { contact, rate, end: self.part * restitution * closed }
         };
-        rates(self.mechanism, configuration).into_iter().map(touch).collect()
+        let own = rates(self.mechanism, configuration).into_iter().filter(|(k, _)| self.own.contains(k));
+        own.map(touch).collect()
     }
 
     /// The course of the impact.
     fn course(&self) -> Result<Course, Faults> {
-        let mut course = Course { after: self.before.clone(), returned: 0.0 };
-        let fastest =
-            rates(self.mechanism, self.before).iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
+        let impulses = self.own.iter().map(|k| (*k, 0.0)).collect();
+        let mut course = Course { configuration: self.before.clone(), impulses, returned: 0.0 };
+        let fastest = self.touches(self.before).iter().map(|touch| touch.rate.abs()).fold(0.0, f64::max);
         for _ in 0..4 * self.mechanism.joints.len() + 2 {
-            let touches = self.touches(&course.after);
+            let touches = self.touches(&course.configuration);
             let is_over = |touch: &Touch| {
                 let short = touch.rate - touch.end;
                 let short = if self.resting.contains(&touch.contact) { -short.abs() } else { short };
@@ -186,25 +166,41 @@ impl Impact<'_> {
             if touches.iter().all(is_over) {
                 return Ok(course);
             }
-            self.go_on(&mut course, &touches)?;
-            if self.law == ImpactLaw::Moreau {
+            if self.go_on(&mut course, &touches)? || self.law == ImpactLaw::Moreau {
                 return Ok(course);
             }
         }
-        Err(self.wedges(&self.touches(&course.after)))
+        Err(self.wedges(&self.touches(&course.configuration)))
     }
 
-    /// Follows the next part of a course.
-    fn go_on(&self, course: &mut Course, touches: &[Touch]) -> Result<(), Faults> {
-        let part = self.part_of(&course.after, touches)?;
-        let after = self.moved(&course.after, &part);
-        for Push { contact, impulse, .. } in &part.pushes {
-            let rate =
-                |configuration: &Configuration| configuration.gap(self.mechanism, ContactId(*contact))[1];
-            course.returned += impulse * part.length * f64::midpoint(rate(&course.after), rate(&after));
+    /// Follows the next part of a course; returns whether the only contact has returned the work that it has taken, with which the
+    /// course is over whatever its restitution.
+    fn go_on(&self, course: &mut Course, touches: &[Touch]) -> Result<bool, Faults> {
+        let mut part = self.part_of(&course.configuration, touches)?;
+        let rate = |configuration: &Configuration, contact: usize| {
+            configuration.gap(self.mechanism, ContactId(contact))[1]
+        };
+        let mut after = self.moved(&course.configuration, &part);
+        let mut is_even = false;
+        if let ([push], [_], ImpactLaw::Course) = (&part.pushes[..], &self.own[..], self.law) {
+            let [from, to] = [&course.configuration, &after].map(|at| rate(at, push.contact));
+            if let Some(even) = until_even(course.returned, push.impulse * part.length, [from, to]) {
+                part.length *= even;
+                after = self.moved(&course.configuration, &part);
+                is_even = true;
+            }
         }
-        course.after = after;
-        Ok(())
+        for Push { contact, impulse, .. } in &part.pushes {
+            let mean = f64::midpoint(rate(&course.configuration, *contact), rate(&after, *contact));
+            course.returned += impulse * part.length * mean;
+            let own = course.impulses.iter_mut().find(|(k, _)| k == contact);
+            own.into_iter().for_each(|(_, sum)| *sum += impulse * part.length);
+        }
+        if is_even {
+            course.returned = 0.0;
+        }
+        course.configuration = after;
+        Ok(is_even)
     }
 
     fn moved(&self, configuration: &Configuration, part: &Part) -> Configuration {
@@ -249,7 +245,38 @@ impl Impact<'_> {
                 return Ok(part);
             }
         }
-        Err(self.wedges(touches))
+        self.jammed(configuration, touches, &apart)?.ok_or_else(|| self.wedges(touches))
+    }
+
+    /// The part of an impact by its course in which friction wedges what moves, while no contact that closes pushes.
+    fn jammed(
+        &self,
+        configuration: &Configuration,
+        touches: &[Touch],
+        apart: &[usize],
+    ) -> Result<Option<Part>, Faults> {
+        let (closing, others): (Vec<&Touch>, Vec<&Touch>) =
+            touches.iter().partition(|touch| touch.rate < 0.0);
+        if closing.is_empty() || self.law == ImpactLaw::Moreau {
+            return Ok(None);
+        }
+        let numbers = |touches: Vec<&Touch>| touches.into_iter().map(|touch| touch.contact).collect::<Vec<_>>();
+        let open = [apart, &numbers(closing)].concat();
+        let parts = connected(self.mechanism);
+        let part = |joint: JointId| body_of(self.mechanism, joint).map(|body| parts[body.index()]);
+        let own = part(self.mechanism.contacts[touches[0].contact].joint);
+        for left in subsets(&numbers(others))? {
+            let touching = Touching::new(self.mechanism, &open, &left);
+            let found = match jam_within(&touching.mechanism, configuration, (&|_| false, self.work)) {
+                Err(_) if touching.is_redundant(configuration) => continue,
+                found => found?,
+            };
+            let Jam::Stops(impulses) = found else { continue };
+            if let Some(impulse) = impulses.into_iter().find(|impulse| part(impulse.wedged) == own) {
+                return Ok(Some(Part { jumps: impulse.jumps, pushes: Vec::new(), length: 1.0 }));
+            }
+        }
+        Ok(None)
     }
 
     /// Where rates may go, in the order in which that is tried: by Moreau's law an impact ends as soon as it has begun.
@@ -292,10 +319,13 @@ impl Impact<'_> {
         (touches, towards): (&[Touch], Towards),
     ) -> Result<Vec<Part>, Faults> {
         let mechanism = &touching.mechanism;
-        let instant = match Instant::new(mechanism, configuration) {
+        let mut instant = match Instant::new(mechanism, configuration) {
             Err(_) if touching.is_redundant(configuration) => return Ok(Vec::new()),
             instant => instant?,
         };
+        let upright = instant.joints.iter_mut().filter(|joint| self.upright.contains(&joint.id));
+        upright.filter_map(|joint| joint.couple.as_mut()).for_each(|couple| couple.half_length = f64::INFINITY);
+        let instant = instant;
         let short_of = |k: usize| {
             let touch = touches.iter().find(|touch| touch.contact == k);
             touch.map_or(0.0, |touch| touch.rate - touch.end)
@@ -373,10 +403,13 @@ impl Impact<'_> {
         }
         let mut all: Vec<Option<Assessment>> = vec![None];
         for group in &impulses.instant.groups {
-            let found = impulses.admissible(&question, &options, group)?;
+            let mut found = impulses.admissible(&question, &options, group)?;
             if found.unsolved > 0 {
                 let joints = self.names(touches);
                 return Err(Fault::general(FaultKind::UnsolvedImpact { joints }).into());
+            }
+            if self.law == ImpactLaw::Course {
+                preferred(group, &mut found.list);
             }
             let with = |before: &Option<Assessment>| {
                 let joined = found.list.iter().map(|one| match before {
@@ -389,4 +422,32 @@ impl Impact<'_> {
         }
         Ok(all.into_iter().flatten().collect())
     }
+}
+
+/// The fraction of a part after which a contact has returned the work that it has taken, the root of `W + P (u p + (w - u) p^2/2)`
+/// with its impulse `P` in the part, in which the rate of its gap goes from `u` to `w`; none if it does not.
+fn until_even(returned: f64, impulse: f64, [from, to]: [f64; 2]) -> Option<f64> {
+    let (a, b) = (impulse * from, impulse * (to - from) / 2.0);
+    if returned > 0.0 || returned + a + b <= 0.0 {
+        return None;
+    }
+    let root = (a * a - 4.0 * b * returned).sqrt();
+    let part = if a > 0.0 { -2.0 * returned / (a + root) } else { (root - a) / (2.0 * b) };
+    (0.0..1.0).contains(&part).then_some(part)
+}
+
+/// Leaves of the states of a group that with the greatest margin; where hinges turn with friction, those in which most stays at
+/// rest.
+fn preferred(group: &Group, states: &mut Vec<Assessment>) {
+    if group.hinges.is_empty() {
+        let better = |best: Assessment, other: Assessment| if other.least() > best.least() { other } else { best };
+        *states = std::mem::take(states).into_iter().reduce(better).into_iter().collect();
+        return;
+    }
+    let stays = |state: &Assessment| {
+        let states = state.phase.joints_and_hinges();
+        states.filter(|state| *state == JointPhase::Sticking).count()
+    };
+    let most = states.iter().map(stays).max();
+    states.retain(|state| Some(stays(state)) == most);
 }
