@@ -89,11 +89,11 @@ use std::ops::ControlFlow;
 #[non_exhaustive]
 pub struct SolveOptions {
     /// Limits of the search.
-    pub search: SearchOptions,
+    pub(crate) search: SearchOptions,
     /// The most solutions, gap states and continua that are listed, each.
-    pub most: usize,
+    pub(crate) most: usize,
     /// Whether margins of friction are computed, and what the loads do from rest once the motion has stopped.
-    pub margins: bool,
+    pub(crate) margins: bool,
 }
 
 impl Default for SolveOptions {
