@@ -148,7 +148,7 @@ fn hold_answers() {
             held("drawer", &[], None),
             "It does not hold: it starts to slide (x: -4 m/s^2). More friction would not hold it.",
         ),
-        (held("bell-crank", &[], None), "It does not hold."),
+        (held("bell-crank", &[], None), "It does not hold. More friction would not hold it."),
         (
             held(SLOPE, &[], None),
             // 0.3 / tan(13 deg)

@@ -16,7 +16,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("drawing", &["fault", "ids", "model", "printable"]),
     ("mechanism", &["expression", "fault", "ids", "interval", "model", "modes", "units"]),
     ("configuration", &["dense", "fault", "ids", "interval", "mechanism", "model", "progress"]),
-    ("kinetics", &["configuration", "dense", "fault", "ids", "interval", "mechanism", "model"]),
+    ("kinetics", &["configuration", "dense", "fault", "ids", "interval", "mechanism", "model", "units"]),
     ("influence", &["ids", "kinetics"]),
     ("law", &["interval", "mechanism", "model", "modes"]),
     ("report", &["choice", "fault", "ids", "printable", "units"]),

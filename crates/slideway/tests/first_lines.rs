@@ -221,7 +221,7 @@ fn of_size(outcome: Outcome) -> First {
                 .against(Against::Hold { load: Some("W".to_owned()) });
             Line(
                 size(&model("bracket-on-pole", &[]), &options).unwrap().answer(),
-                "To hold the load `W`, however great, with a safety factor of 1: x at least 304.8 mm",
+                "To hold every `W` with a safety factor of 1: x at least 304.8 mm",
             )
         }
         Several => Line(

@@ -123,7 +123,6 @@ impl Words<'_> {
         let report = self.report;
         let model = format!("The model has {} = {}", report.vary.name, quantity(report, report.present.at));
         let Sample { is, margin, .. } = report.present;
-        let load = report.load.as_deref().unwrap_or_default();
         let what = subject(report);
         let told = match (is, margin) {
             (SampleKind::NoSolution, _) => {
@@ -145,8 +144,7 @@ impl Words<'_> {
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking => "it is on the verge of jamming".to_owned(),
-                _ if load.is_empty() => "it just holds".to_owned(),
-                _ => format!("the load `{load}` is just held, however great it is"),
+                _ => format!("it just holds{}", every_load(report)),
             },
             (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
             (_, None) => never(report),
@@ -169,6 +167,7 @@ impl Words<'_> {
     fn factor(&self, margin: f64) -> String {
         let report = self.report;
         let load = report.load.as_deref().unwrap_or_default();
+        let every = every_load(report);
         let enough = if margin >= report.margin { "which is enough" } else { "which is too little" };
         let factor = brief(margin);
         match (report.against, margin >= 1.0) {
@@ -185,21 +184,14 @@ impl Words<'_> {
             (MarginKind::SelfLocking, false) => format!(
                 "it is self-locking under `{load}`; static friction would have to fall to {factor} of its value"
             ),
-            (_, _) if margin == 0.0 && load.is_empty() => "no static friction holds it".to_owned(),
-            (_, true) if load.is_empty() => format!("it holds with a safety factor of {factor}, {enough}"),
-            (_, false) if load.is_empty() => {
-                format!("it does not hold; it needs {} times its static friction", brief(margin.recip()))
-            }
-            (_, _) if margin == 0.0 => format!("no static friction holds every `{load}`"),
-            (_, true) => {
+            (_, _) if margin == 0.0 => format!("no static friction makes it hold{every}"),
+            (_, true) => format!("it holds{every} with a safety factor of {factor}, {enough}"),
+            (_, false) => {
                 format!(
-                    "it holds the load `{load}`, however great, with a safety factor of {factor}, {enough}"
+                    "it does not hold{every}; it needs {} times its static friction",
+                    brief(margin.recip())
                 )
             }
-            (_, false) => format!(
-                "it does not hold every `{load}`; it needs {} times its static friction",
-                brief(margin.recip())
-            ),
         }
     }
 
@@ -225,13 +217,17 @@ fn never(report: &SizeReport) -> String {
     match report.against {
         MarginKind::Locking => "more friction would not jam it".to_owned(),
         MarginKind::SelfLocking => format!("no static friction, however great, holds every `{load}`"),
-        MarginKind::Hold if load.is_empty() => "it holds without friction".to_owned(),
-        MarginKind::Hold => format!("`{load}` is held without friction, however great it is"),
+        MarginKind::Hold => format!("it holds{} without friction", every_load(report)),
         // These are numbers wherever there is a solution.
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure | MarginKind::Efficiency => {
             "there is no number".to_owned()
         }
     }
+}
+
+/// What is to be held, however great; empty of all loads as they are.
+fn every_load(report: &SizeReport) -> String {
+    report.load.as_ref().map_or(String::new(), |load| format!(" every `{load}`"))
 }
 
 /// The name of the numbers of the report: "safety factor", "greatest effort of push".
@@ -262,10 +258,7 @@ fn wish(report: &SizeReport) -> String {
         MarginKind::SelfLocking => {
             format!("So that `{load}` does not lock it, with a safety factor of {margin}")
         }
-        MarginKind::Hold if load.is_empty() => format!("To hold with a safety factor of {margin}"),
-        MarginKind::Hold => {
-            format!("To hold the load `{load}`, however great, with a safety factor of {margin}")
-        }
+        MarginKind::Hold => format!("To hold{} with a safety factor of {margin}", every_load(report)),
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure => {
             format!("For a {} of {} at most", subject(report), level(report, report.margin))
         }

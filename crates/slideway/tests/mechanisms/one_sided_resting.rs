@@ -424,7 +424,7 @@ fn a_box_starts_as_the_reference_says() {
     let tips = at_rest(&text, &[("b", "100 mm"), ("slope", "25 deg"), ("mu", "0.8")]);
     assert_eq!(
         tips.answer(),
-        "It tips: base on its left corner, the right one opens, sticks. Every load has exactly one state."
+        "It tips: base on its left corner, sticks. Every load has exactly one state."
     );
     let rear = contact(&tips.solutions[0], "base.rear");
     assert!(
