@@ -388,7 +388,8 @@ fn a_rod_runs_into_its_jam() {
     };
     is_near(energy_lost, 9.333_f64.powi(2) * (1.0 + 3.0 * 0.5) / 8.0, 2e-2);
     assert!(jams.events[1].words.contains("an impulse stops it"), "{:#?}", words(&jams));
-    assert!(jams.energy_error < 1e-6 * jams.energy_scale, "{:e}", jams.energy_error);
+    // What the last steps before the end leave of the balance, the impulse does not change.
+    is_near(jams.energy_error, history.energy_error, 1e-9 * jams.energy_scale);
 }
 
 /// F. Genot and B. Brogliato, New results on Painleve paradoxes (1999): where a sliding rod runs into the end of its states, mobility
