@@ -101,7 +101,7 @@ motion animation-crank.svg --animate models/slider-crank.toml --until 30ms --slo
 motion animation-trammel.svg --animate models/elliptic-trammel.toml --until 1.2s --slow-motion 4
 motion animation-sleeve.svg --animate models/sleeve-on-arm.toml --until 0.6s --slow-motion 6
 motion animation-woodpecker.svg --animate models/woodpecker.toml --until 0.3s --slow-motion 20
-motion animation-rattling-drawer.svg --animate models/rattling-drawer.toml --until 0.12s --slow-motion 60
+motion motion-rattling-drawer.svg --plot models/rattling-drawer.toml --until 0.12s
 motion animation-rod-jam.svg --animate models/rod-on-floor.toml --set turning=0 --until 0.9s --slow-motion 4
 motion animation-boom.svg --animate models/telescopic-boom.toml --until 0.6s --slow-motion 6
 draw drawer-before-the-jam.svg models/thrown-drawer.toml --at x=0.29 --rate x=1.2 --solution 2

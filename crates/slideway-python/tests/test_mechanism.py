@@ -246,3 +246,18 @@ def test_names_are_written_safely() -> None:
     with pytest.raises(ModelError) as caught:
         m.build()
     assert "\x1b" not in str(caught.value)
+
+
+def test_a_loose_guide_bounces_between_its_faces() -> None:
+    m = Mechanism()
+    m.body("drawer", mass=1, centre=(0, 0), inertia=1)
+    m.block_slider("rail", "drawer", GROUND, at=(0, 0), length=0.4, mu=0.2, play="1 mm", loose=0.5)
+    m.guided_slider("guide", "drawer", GROUND, at=(0, 0), length=0.4, mu=0.2, play="1 mm", loose=0)
+    m.pin_in_slot("pin", "drawer", GROUND, at=(0, 0), mu=0.2, play="1 mm", loose=0.25)
+    text = m.to_toml()
+    assert text.count("loose = true") == 3
+    assert [line for line in text.splitlines() if line.startswith("restitution")] == [
+        "restitution = 0.5",
+        "restitution = 0",
+        "restitution = 0.25",
+    ]

@@ -136,7 +136,7 @@ class Mechanism:
         """
         The mechanism that was pickled.
         """
-    def block_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu: Value | BySide | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None, front: ContactValues | None = None, rear: ContactValues | None = None, supports: Mapping[str, SupportValues] | None = None) -> str:
+    def block_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu: Value | BySide | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, loose: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None, front: ContactValues | None = None, rear: ContactValues | None = None, supports: Mapping[str, SupportValues] | None = None) -> str:
         """
         Adds a block slider: a carriage, sledge or bushing with a contact at each end.
 
@@ -173,6 +173,9 @@ class Mechanism:
         play : float or str
             Total play between the two faces (m), which counts where redundant contacts share a load; negative
             for a press fit. Default: 0.
+        loose : float or str
+            In a motion the block reaches each of its faces by itself, within its `play`, and bounces with this coefficient of
+            restitution. Default: it follows the middle between them.
         misalignment : float or str
             How far the guide's line is displaced at a contact (m), towards positive normal force, which counts where
             redundant contacts share a load; may depend on coordinates. Default: 0.
@@ -388,7 +391,7 @@ class Mechanism:
         >>> m.force("push", drawer, at=(0, 0.1), components=("20 N", 0))
         'push'
         """
-    def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
+    def guided_slider(self, /, name: str, block: str, guide: str, *, at: Pair, length: Value, mu: Value | BySide, along: Value | None = None, height: Value | None = None, around: bool = False, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, centred_preload: bool = False, stiffness: Value | None = None, play: Value | None = None, loose: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
         """
         Adds a guided slider: it is pressed on one side along its whole length, with one normal force and a couple.
 
@@ -399,7 +402,7 @@ class Mechanism:
             Its bodies; either can be `GROUND`.
         at, length, along, height, around, travel, restitution, mu, mu_static, preload, centred_preload
             As for `block_slider`; `length` is that of the pressed face.
-        stiffness, play, misalignment, pad
+        stiffness, play, loose, misalignment, pad
             As for `block_slider`.
 
         Returns
@@ -463,7 +466,7 @@ class Mechanism:
         >>> m.parameter("L", "400 mm")
         'L'
         """
-    def pin_in_slot(self, /, name: str, pin: str, slot: str, *, at: Pair, mu: Value | BySide, along: Value | None = None, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, stiffness: Value | None = None, play: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
+    def pin_in_slot(self, /, name: str, pin: str, slot: str, *, at: Pair, mu: Value | BySide, along: Value | None = None, travel: Pair | None = None, restitution: Value | None = None, mu_static: Value | None = None, preload: Value | BySide | None = None, stiffness: Value | None = None, play: Value | None = None, loose: Value | None = None, misalignment: Value | None = None, pad: Pair | None = None) -> str:
         """
         Adds a pin of the first body in a slot of the second: one contact.
 
@@ -474,7 +477,7 @@ class Mechanism:
             Its bodies; either can be `GROUND`.
         at : pair
             The pin in the drawing (m).
-        along, travel, restitution, mu, mu_static, preload, stiffness, play, misalignment, pad
+        along, travel, restitution, mu, mu_static, preload, stiffness, play, loose, misalignment, pad
             As for `block_slider`; `along` is the direction of the slot.
 
         Returns

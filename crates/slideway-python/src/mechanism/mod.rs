@@ -119,7 +119,7 @@ impl Mechanism {
         travel: "Pair | None" = None, restitution: "Value | None" = None,
         mu: "Value | BySide | None" = None, mu_static: "Value | None" = None,
         preload: "Value | BySide | None" = None, centred_preload: "bool" = false,
-        stiffness: "Value | None" = None, play: "Value | None" = None,
+        stiffness: "Value | None" = None, play: "Value | None" = None, loose: "Value | None" = None,
         misalignment: "Value | None" = None, pad: "Pair | None" = None,
         front: "ContactValues | None" = None, rear: "ContactValues | None" = None,
         supports: "Mapping[str, SupportValues] | None" = None) -> "str")]
@@ -142,6 +142,7 @@ impl Mechanism {
         centred_preload: bool,
         stiffness: Option<&Bound<'_, PyAny>>,
         play: Option<&Bound<'_, PyAny>>,
+        loose: Option<&Bound<'_, PyAny>>,
         misalignment: Option<&Bound<'_, PyAny>>,
         pad: Option<&Bound<'_, PyAny>>,
         front: Option<&Bound<'_, PyAny>>,
@@ -151,6 +152,7 @@ impl Mechanism {
         let contacts = [mu, mu_static, preload, stiffness, play, misalignment, pad];
         let values = SliderValues::new(at, [along, travel, restitution], contacts)?;
         let (length, height) = (quantity("length", length)?, optional("height", height)?);
+        let loose = optional("loose", loose)?;
         let front = front.map(|front| BlockEnd::new("front", front)).transpose()?;
         let rear = rear.map(|rear| BlockEnd::new("rear", rear)).transpose()?;
         let supports = Support::all(supports)?;
@@ -158,6 +160,7 @@ impl Mechanism {
             let slider = values.say(drawing.block_slider(name, block, guide)).length(length);
             let slider = slider
                 .with(height, SliderBuilder::height)
+                .with(loose, SliderBuilder::loose)
                 .when(around, SliderBuilder::around)
                 .when(centred_preload, SliderBuilder::centred_preload)
                 .with(front, |slider, front| slider.front(|contact| front.say(contact)))
@@ -173,7 +176,7 @@ impl Mechanism {
         around: "bool" = false, travel: "Pair | None" = None, restitution: "Value | None" = None,
         mu_static: "Value | None" = None, preload: "Value | BySide | None" = None,
         centred_preload: "bool" = false, stiffness: "Value | None" = None,
-        play: "Value | None" = None, misalignment: "Value | None" = None,
+        play: "Value | None" = None, loose: "Value | None" = None, misalignment: "Value | None" = None,
         pad: "Pair | None" = None) -> "str")]
     fn guided_slider(
         &self,
@@ -194,16 +197,19 @@ impl Mechanism {
         centred_preload: bool,
         stiffness: Option<&Bound<'_, PyAny>>,
         play: Option<&Bound<'_, PyAny>>,
+        loose: Option<&Bound<'_, PyAny>>,
         misalignment: Option<&Bound<'_, PyAny>>,
         pad: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
         let contacts = [Some(mu), mu_static, preload, stiffness, play, misalignment, pad];
         let values = SliderValues::new(at, [along, travel, restitution], contacts)?;
         let (length, height) = (quantity("length", length)?, optional("height", height)?);
+        let loose = optional("loose", loose)?;
         self.add_slider(py, (name, ["block", "guide"], [block, guide]), |drawing, [block, guide]| {
             let slider = values.say(drawing.guided_slider(name, block, guide)).length(length);
             slider
                 .with(height, SliderBuilder::height)
+                .with(loose, SliderBuilder::loose)
                 .when(around, SliderBuilder::around)
                 .when(centred_preload, SliderBuilder::centred_preload)
                 .id()
@@ -215,7 +221,7 @@ impl Mechanism {
     #[pyo3(signature = (name: "str", pin: "str", slot: "str", *, at: "Pair", mu: "Value | BySide",
         along: "Value | None" = None, travel: "Pair | None" = None, restitution: "Value | None" = None,
         mu_static: "Value | None" = None, preload: "Value | BySide | None" = None,
-        stiffness: "Value | None" = None, play: "Value | None" = None,
+        stiffness: "Value | None" = None, play: "Value | None" = None, loose: "Value | None" = None,
         misalignment: "Value | None" = None, pad: "Pair | None" = None) -> "str")]
     fn pin_in_slot(
         &self,
@@ -232,13 +238,15 @@ impl Mechanism {
         preload: Option<&Bound<'_, PyAny>>,
         stiffness: Option<&Bound<'_, PyAny>>,
         play: Option<&Bound<'_, PyAny>>,
+        loose: Option<&Bound<'_, PyAny>>,
         misalignment: Option<&Bound<'_, PyAny>>,
         pad: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<String> {
         let contacts = [Some(mu), mu_static, preload, stiffness, play, misalignment, pad];
         let values = SliderValues::new(at, [along, travel, restitution], contacts)?;
+        let loose = optional("loose", loose)?;
         self.add_slider(py, (name, ["pin", "slot"], [pin, slot]), |drawing, [pin, slot]| {
-            values.say(drawing.pin_in_slot(name, pin, slot)).id()
+            values.say(drawing.pin_in_slot(name, pin, slot)).with(loose, SliderBuilder::loose).id()
         })
     }
 

@@ -25,7 +25,8 @@ impl Mechanism {
         let mut whole = Cow::Borrowed(self);
         for (joint, slider) in self.sliders() {
             for (end, stop) in slider.stops.into_iter().enumerate() {
-                let (Some(restitution), Some(travel)) = (stop.and_then(Stop::restitution), slider.travel) else {
+                let (Some(restitution), Some(travel)) = (stop.and_then(Stop::restitution), slider.travel)
+                else {
                     continue;
                 };
                 let greatest = end == 1;

@@ -287,7 +287,12 @@ fn candidate(
         is_over: successor.is_present && undecided && !event.zero.is_empty(),
         is_present: successor.is_present,
         open,
-        continuation: Continuation { phase, verdict: successor.attainability.verdict, continues, impulse: None },
+        continuation: Continuation {
+            phase,
+            verdict: successor.attainability.verdict,
+            continues,
+            impulse: None,
+        },
     }
 }
 

@@ -91,9 +91,9 @@ mod vanishing;
 pub(super) use assessment::ASSESSED;
 pub(super) use determined::{DeterminedForces, determined_forces};
 pub(super) use elastic::verdict_on;
-pub use impact::{Blow, Impact, impact};
 #[cfg(test)]
 pub(super) use impact::impact_within;
+pub use impact::{Blow, Impact, impact};
 pub(super) use impact::{FaceBlow, Landing, landing};
 pub use jam::{Impulse, Jam, jam};
 pub use rules::Outlook;

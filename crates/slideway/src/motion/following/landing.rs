@@ -72,7 +72,8 @@ impl Run<'_, '_> {
         }
         let others = contacts.into_iter().map(|contact| told.lands(contact, None));
         let others = others.chain(stops.into_iter().map(|stop| told.hits(stop, Some(0.0))));
-        let missing: Vec<Cause> = others.filter(|cause| !causes.iter().any(|told| is_same(told, cause))).collect();
+        let missing: Vec<Cause> =
+            others.filter(|cause| !causes.iter().any(|told| is_same(told, cause))).collect();
         causes.extend(missing);
         Ok(true)
     }

@@ -6,9 +6,7 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::{EndStop, Mechanism};
-use crate::motion::decision::rules::{
-    Continuation, Continuations, Decisions, EventInstant, HaltingImpulse,
-};
+use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant, HaltingImpulse};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
 use crate::motion::options::SimulateOptions;
@@ -26,6 +24,9 @@ const MOST_IMPULSES: usize = 16;
 const CROWD: usize = 40;
 /// ... and this part of the time in which the mechanism moves through its own size is a short time.
 const SHORT: f64 = 5e-5;
+
+/// Where forces grow beyond all bounds, steps end before the end of a mode: friction is by this part short of what holds there.
+const BEFORE_THE_END: f64 = 1e-3;
 
 /// Solutions whose hinge forces have directions with cosines this close to 1 are those that meet at a fold.
 const NEAR_FOLD: f64 = 1e-4;
@@ -308,7 +309,13 @@ impl<'a, 'm> Run<'a, 'm> {
     /// # Errors
     /// Whatever keeps the impulse or what follows it from being decided.
     fn after_jam(&mut self, instant: &EventInstant<'_>) -> Result<Vec<Continuation>, Faults> {
-        let Some(impulse) = self.decisions.jam(instant)? else { return Ok(Vec::new()) };
+        // Where the mobility of a tip vanishes the impulse that stops it takes just as much friction as there is.
+        let mut at_end = instant.mechanism.clone();
+        for contact in at_end.contacts.iter_mut().filter(|contact| contact.opens) {
+            contact.mu_static = contact.mu_static.map(|mu| mu * (1.0 + BEFORE_THE_END));
+        }
+        let at_end = EventInstant { mechanism: &at_end, ..*instant };
+        let Some(impulse) = self.decisions.jam(&at_end)? else { return Ok(Vec::new()) };
         self.smooth.set_velocities(&impulse.velocities);
         let configuration = self.smooth.equations.configuration.clone();
         let signs = self.signs(&self.stopped(&[], None));

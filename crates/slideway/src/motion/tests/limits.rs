@@ -197,7 +197,8 @@ impl Decisions for Wrong {
     fn successors(&mut self, _: &EventInstant<'_>) -> Result<Continuations, Faults> {
         let contacts = vec![ContactPhase::Pressed(Side::Positive); 2];
         let phase = Phase { joints: vec![JointPhase::Sliding(1.0)], contacts, hinges: Vec::new() };
-        let list = vec![Continuation { phase, verdict: Verdict::NotComputed, continues: false, impulse: None }];
+        let list =
+            vec![Continuation { phase, verdict: Verdict::NotComputed, continues: false, impulse: None }];
         Ok(Continuations { list, left_out: false })
     }
 

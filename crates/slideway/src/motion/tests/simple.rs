@@ -110,7 +110,12 @@ impl Decisions for TryAll {
                 let phase = Phase { joints: joints.clone(), contacts, hinges: Vec::new() };
                 if !redundant && Self::admits(&mut equations, instant, &phase) {
                     let continues = Some(&phase) == instant.previous;
-                    list.push(Continuation { phase, verdict: Verdict::NotComputed, continues, impulse: None });
+                    list.push(Continuation {
+                        phase,
+                        verdict: Verdict::NotComputed,
+                        continues,
+                        impulse: None,
+                    });
                 }
             }
         }

@@ -260,7 +260,8 @@ impl<'m> Impact<'m> {
         if closing.is_empty() || self.law == ImpactLaw::Moreau {
             return Ok(None);
         }
-        let numbers = |touches: Vec<&Touch>| touches.into_iter().map(|touch| touch.contact).collect::<Vec<_>>();
+        let numbers =
+            |touches: Vec<&Touch>| touches.into_iter().map(|touch| touch.contact).collect::<Vec<_>>();
         let open = [apart, &numbers(closing)].concat();
         let parts = connected(self.mechanism);
         let part = |joint: JointId| body_of(self.mechanism, joint).map(|body| parts[body.index()]);
@@ -324,7 +325,9 @@ impl<'m> Impact<'m> {
             instant => instant?,
         };
         let upright = instant.joints.iter_mut().filter(|joint| self.upright.contains(&joint.id));
-        upright.filter_map(|joint| joint.couple.as_mut()).for_each(|couple| couple.half_length = f64::INFINITY);
+        upright
+            .filter_map(|joint| joint.couple.as_mut())
+            .for_each(|couple| couple.half_length = f64::INFINITY);
         let instant = instant;
         let short_of = |k: usize| {
             let touch = touches.iter().find(|touch| touch.contact == k);
@@ -440,7 +443,8 @@ fn until_even(returned: f64, impulse: f64, [from, to]: [f64; 2]) -> Option<f64> 
 /// rest.
 fn preferred(group: &Group, states: &mut Vec<Assessment>) {
     if group.hinges.is_empty() {
-        let better = |best: Assessment, other: Assessment| if other.least() > best.least() { other } else { best };
+        let better =
+            |best: Assessment, other: Assessment| if other.least() > best.least() { other } else { best };
         *states = std::mem::take(states).into_iter().reduce(better).into_iter().collect();
         return;
     }

@@ -160,7 +160,9 @@ pub(in crate::motion) fn landing(
         let course = Course::new(mechanism, &before, (own, law, work));
         let (after, impulses) = followed(course)?;
         let energy_lost = kinetic(mechanism, &before) - kinetic(mechanism, &after);
-        let closes = |(k, _): &(usize, f64)| touching.iter().any(|(other, rate)| other == k && *rate < 0.0);
+        let closes = |(k, _): &(usize, f64)| {
+            touching.iter().any(|(other, rate)| other == k && *rate < -AT_REST * fastest)
+        };
         let contacts = impulses.into_iter().filter(closes).map(|(k, impulse)| (ContactId(k), impulse));
         found.blows.push(FaceBlow { contacts: contacts.collect(), energy_lost });
         found.after = after;
