@@ -17,13 +17,13 @@ pub struct DrawnPanel {
     /// From where to where the vertical axis goes.
     pub y: [f64; 2],
     /// The curves; those that cannot be told apart are one line.
-    pub(crate) lines: Vec<DrawnLine>,
+    pub lines: Vec<DrawnLine>,
     /// The labels of marked values.
-    pub(crate) flags: Vec<DrawnFlag>,
+    pub flags: Vec<DrawnFlag>,
     /// Where curves go on above or below the frame.
-    pub(crate) exits: Vec<DrawnExit>,
+    pub exits: Vec<DrawnExit>,
     /// The legend.
-    pub(crate) legend: Vec<LegendEntry>,
+    pub legend: Vec<LegendEntry>,
 }
 
 /// A line for one curve or for several.
@@ -36,9 +36,9 @@ pub struct DrawnLine {
     /// Index into the quantities of the figure.
     pub quantity: usize,
     /// Places of the markers of its quantity, if there are several quantities.
-    pub(crate) markers: Vec<[f64; 2]>,
+    pub markers: Vec<[f64; 2]>,
     /// Arrowheads that show the order of its points, if the panel has them.
-    pub(crate) arrows: Vec<DrawnArrow>,
+    pub arrows: Vec<DrawnArrow>,
 }
 
 /// An arrowhead.
@@ -47,7 +47,7 @@ pub struct DrawnArrow {
     /// Its tip, in the units of the axes.
     pub at: [f64; 2],
     /// Its direction in the picture, from the right counterclockwise (deg).
-    pub(crate) angle: f64,
+    pub angle: f64,
 }
 
 /// The label of a marked value.
@@ -58,13 +58,13 @@ pub struct DrawnFlag {
     /// Its label.
     pub label: String,
     /// Whether curves grow without bound there.
-    pub(crate) asymptote: bool,
+    pub asymptote: bool,
     /// Where the label begins, from the left edge of the frame (px).
-    pub(crate) left: f64,
+    pub left: f64,
     /// The row above the frame in which it stands, from 0.
-    pub(crate) row: usize,
+    pub row: usize,
     /// Whether it stands beside its line, not above it.
-    pub(crate) beside: bool,
+    pub beside: bool,
 }
 
 /// Where a curve leaves the frame.
@@ -75,14 +75,14 @@ pub struct DrawnExit {
     /// The branch of the curve.
     pub branch: usize,
     /// Whether it goes on above the frame, not below it.
-    pub(crate) upwards: bool,
+    pub upwards: bool,
 }
 
 /// An entry of a legend.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LegendEntry {
     /// The sample beside the text.
-    pub(crate) sample: LegendSample,
+    pub sample: LegendSample,
     /// The text.
     pub text: String,
 }

@@ -60,11 +60,11 @@ pub struct Panel {
     /// Coloured stretches along the x axis, such as contact modes over time.
     pub bands: Vec<Band>,
     /// Bars that stand side by side or on one another.
-    pub(crate) bars: Vec<Bar>,
+    pub bars: Vec<Bar>,
     /// Curves.
     pub curves: Vec<Curve>,
     /// Whether arrowheads on the curves show the order of their points.
-    pub(crate) directed: bool,
+    pub directed: bool,
     /// Points that are marked, above the curves.
     pub points: Vec<MarkedPoint>,
 }
@@ -142,7 +142,7 @@ pub struct MarkedPoint {
     pub kind: PointKind,
     /// Of an impact the energy that it takes, as a part of the greatest of the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) part: Option<f64>,
+    pub part: Option<f64>,
 }
 
 /// The meaning of a marked point.

@@ -51,11 +51,11 @@ const ROUNDING: &str = "an eigenvalue of the fast motion is zero within rounding
 #[derive(Debug, Clone)]
 pub struct Candidate {
     /// The states of the contacts: their sides, or that one of redundant contacts is open.
-    pub(crate) states: Vec<ContactState>,
+    pub states: Vec<ContactState>,
     /// The normal forces (N), those of press fits at their faces.
-    pub(crate) normal_force: DVector<f64>,
+    pub normal_force: DVector<f64>,
     /// The deflections of redundant contacts, where they are known (m).
-    pub(crate) deflections: Vec<Option<f64>>,
+    pub deflections: Vec<Option<f64>>,
 }
 
 /// A mechanism in its state whose guides and hinges with friction are slightly elastic.

@@ -25,7 +25,7 @@ pub struct Excess {
     /// The rows of the joint equations that are left out of those that determine the positions.
     pub(crate) rows: Vec<usize>,
     /// Which contacts may be open, and together.
-    pub(crate) open: OpenContacts,
+    pub open: OpenContacts,
     /// Of these, how many belong to self-stresses of hinges and rotation locks alone.
     pub(crate) of_hinges: usize,
 }

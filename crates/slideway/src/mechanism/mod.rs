@@ -189,31 +189,31 @@ pub struct Contact<T = f64> {
     /// [`Configuration::put_friction`](crate::configuration::Configuration::put_friction).
     pub mu: [T; 2],
     /// The formulas of those that depend on the sliding speed.
-    pub(crate) law: [Option<FormulaId>; 2],
+    pub law: [Option<FormulaId>; 2],
     /// Static friction coefficient, likewise; what is not given is the kinetic one at the sliding speed zero.
     pub mu_static: [T; 2],
     /// Preload (N), likewise.
     pub preload: [T; 2],
     /// Where the preload's friction acts.
-    pub(crate) preload_line: PreloadLine,
+    pub preload_line: PreloadLine,
     /// Stiffness of the guide (N/m), if the model gives it.
-    pub(crate) stiffness: Option<T>,
+    pub stiffness: Option<T>,
     /// Total play between its faces (m).
     pub play: T,
     /// How far the guide's line is displaced there, towards +n (m): with a law, in the state of the last call of
     /// [`Configuration::put_friction`](crate::configuration::Configuration::put_friction).
     pub misalignment: T,
     /// The formula of a misalignment that depends on coordinates.
-    pub(crate) misalignment_law: Option<FormulaId>,
+    pub misalignment_law: Option<FormulaId>,
     /// Length and width of the area in contact (m), if the model gives it.
-    pub(crate) pad: Option<[T; 2]>,
+    pub pad: Option<[T; 2]>,
     /// Which face of a press fit it is, with half of its preload.
-    pub(crate) face: Option<Face<ContactId>>,
+    pub face: Option<Face<ContactId>>,
     /// Whether it lifts off its face in place of pressing another one; with it open the mode problem has what is
     /// a negative normal force of others.
     pub opens: bool,
     /// Coefficient of restitution of its impacts, if it lifts off.
-    pub(crate) restitution: T,
+    pub restitution: T,
     /// Its gap in the drawing (m): zero, unless it is apart from its face from the start.
     pub gap: T,
 }
@@ -262,7 +262,7 @@ pub struct FrictionCircle<T = f64> {
     /// Radius of the friction circle at rest (m).
     pub static_radius: T,
     /// Law from which the radii follow.
-    pub(crate) law: CircleLaw<T>,
+    pub law: CircleLaw<T>,
 }
 
 /// Law from which the radii of a friction circle follow.
@@ -420,9 +420,9 @@ pub struct Drive<T = f64> {
     /// Its entry in the model file.
     pub place: Place,
     /// The coordinate whose motion is prescribed.
-    pub(crate) coordinate: CoordinateId,
+    pub coordinate: CoordinateId,
     /// The prescribed acceleration.
-    pub(crate) acceleration: Quantity<T>,
+    pub acceleration: Quantity<T>,
     /// The unknown effort.
     pub effort: Effort<T>,
 }
@@ -470,7 +470,7 @@ pub struct EventDefinition<T = f64> {
     /// The quantity.
     pub zero_of: Quantity<T>,
     /// In which direction it passes.
-    pub(crate) direction: CrossingDirection,
+    pub direction: CrossingDirection,
     /// Whether the motion ends there.
     pub stops: bool,
 }

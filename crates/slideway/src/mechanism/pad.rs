@@ -27,7 +27,7 @@ pub struct Pad<T = f64> {
     /// The displacement at which it begins (m).
     pub place: T,
     /// Its stiffness k (N/m) and its damping coefficient c (N s/m).
-    pub(crate) constants: [T; 2],
+    pub constants: [T; 2],
     /// The number of its force among the formulas: beyond those of the model.
     pub(crate) formula: FormulaId,
 }

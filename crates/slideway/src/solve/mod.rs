@@ -89,11 +89,11 @@ use std::ops::ControlFlow;
 #[non_exhaustive]
 pub struct SolveOptions {
     /// Limits of the search.
-    pub(crate) search: SearchOptions,
+    pub search: SearchOptions,
     /// The most solutions, gap states and continua that are listed, each.
-    pub(crate) most: usize,
+    pub most: usize,
     /// Whether margins of friction are computed, and what the loads do from rest once the motion has stopped.
-    pub(crate) margins: bool,
+    pub margins: bool,
 }
 
 impl Default for SolveOptions {
