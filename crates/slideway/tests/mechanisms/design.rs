@@ -69,7 +69,7 @@ fn efforts(report: &DriveReport) -> [(f64, EfficiencyKind, Option<f64>); 2] {
 fn what_holds_only_while_wedged_is_told_apart() {
     for (mu, told) in [
         ("0.3", "even wedged by a knock it needs 2.222 times its static friction"),
-        ("0.7", "it holds only while wedged, with a safety factor of 1.05"),
+        ("0.7", "wedged by a knock it holds with a safety factor of 1.05"),
     ] {
         let drawer = with("drawer-on-two-rails", &[("mu", mu)]);
         let report = sized(&drawer, "mu=0.1..0.9", 1.2, to_hold("resistance"));

@@ -422,10 +422,7 @@ fn at_rest(text: &str, list: &[(&str, &str)]) -> SolveReport {
 fn a_box_starts_as_the_reference_says() {
     let text = BOX.replace("rate = \"-1 m/s\"", "");
     let tips = at_rest(&text, &[("b", "100 mm"), ("slope", "25 deg"), ("mu", "0.8")]);
-    assert_eq!(
-        tips.answer(),
-        "It tips: base on its left corner, sticks. Every load has exactly one state."
-    );
+    assert_eq!(tips.answer(), "It tips: base on its left corner, sticks. Every load has exactly one state.");
     let rear = contact(&tips.solutions[0], "base.rear");
     assert!(
         (rear.normal_force - 9.230_261_503).abs() < 1e-8
@@ -597,7 +594,7 @@ fn a_disc_rolls_or_slips_down_an_incline(#[case] k: f64) {
         let expected = if rolls { sin / (1.0 + k) } else { sin - mu * cos };
         assert!((along + GRAVITY * expected).abs() < 1e-9, "{along}");
         assert!(!rolls || (turn * 0.1 + along).abs() < 1e-9, "{turn}");
-        let starts = if rolls { "foot does not slip" } else { "foot disc slides along" };
+        let starts = if rolls { "foot does not slip" } else { "foot slides backwards" };
         assert!(report.answer().contains(starts), "{}", report.answer());
         assert_eq!(report.every_load_has_one_state, Some(true));
         let held = hold(&Model::parse(&text).unwrap(), &HoldOptions::default()).unwrap();

@@ -204,7 +204,11 @@ fn sweeps_and_maps_know_what_is_at_rest() {
     let found = map(&model, &options.probe(1).colour_by(ColourBy::Modes)).unwrap();
     // It rolls, or slips: upwards if it is pulled up by more than friction holds, else downwards.
     assert_eq!(found.classes.len(), 3, "{:?}", found.classes);
-    assert!(found.classes.iter().any(|class| class.words == "foot does not slip"), "{:?}", found.classes);
+    assert!(
+        found.classes.iter().any(|class| class.words == "it starts to move: foot does not slip"),
+        "{:?}",
+        found.classes
+    );
 }
 
 /// A drive that pushes a box along its incline at half its height: it tips from `|F - m g sin| = m g cos b/h` on, before it slides.
