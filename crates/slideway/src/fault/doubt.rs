@@ -44,7 +44,7 @@ pub enum Doubt {
     )]
     RangeAtMiddle { name: String, from: String, to: String, middle: String },
     #[error(
-        "the friction {name} is varied: its own value, {value}, is not allowed beside the others, and {taken} stands for it"
+        "{name} is varied: its own value, {value}, is not allowed beside the others, and {taken} stands for it"
     )]
     VariedValue { name: String, value: String, taken: String },
 }
@@ -105,7 +105,9 @@ impl Doubt {
                 "`{}` tells what holds for the whole range; ask here with each end, `{name}={from}` and `{name}={to}`",
                 face.question("solve")
             ),
-            Self::VariedValue { name, .. } => format!("a static coefficient is not below its kinetic one: set `{name}`, too"),
+            Self::VariedValue { name, .. } => {
+                format!("a static coefficient is not below its kinetic one: set `{name}`, too")
+            }
             Self::GreatGravity { .. } => {
                 "look for a wrong or missing unit: `9.81 m/s^2` and `9810 mm/s^2` are that of the Earth".to_owned()
             }

@@ -146,17 +146,13 @@ impl Model {
     /// Gives a friction coefficient the allowed value that is nearest to its own; false if its own is allowed.
     fn allow(&mut self, name: &str) -> bool {
         let Some([least, greatest]) = self.friction_range(name) else { return false };
-        let (Some(parameter), values) = (
-            self.parameters.iter().find(|other| &*other.name == name),
-            self.allowed_values(&[], &mut Faults::default()),
-        ) else {
-            return false;
-        };
-        let (id, value) = (parameter.value, values[parameter.value.index()]);
-        let Some(value) = value.filter(|value| !(least..=greatest).contains(value)) else { return false };
-        let setting = Setting::new(SettingKind::Parameter, name, value.clamp(least, greatest));
-        let [own, taken] = [value, value.clamp(least, greatest)].map(precise);
-        let doubt = Doubt::VariedValue { name: name.to_owned(), value: own, taken };
+        let Some(parameter) = self.parameters.iter().find(|other| &*other.name == name) else { return false };
+        let id = parameter.value;
+        let own = self.allowed_values(&[], &mut Faults::default())[id.index()];
+        let Some(own) = own.filter(|own| !(least..=greatest).contains(own)) else { return false };
+        let taken = own.clamp(least, greatest);
+        let setting = Setting::new(SettingKind::Parameter, name, taken);
+        let doubt = Doubt::VariedValue { name: name.to_owned(), value: precise(own), taken: precise(taken) };
         self.doubts.push(Fault::new(FaultKind::Doubt(doubt), self.formula(id).origin.place()));
         self.change(&setting, &Source::Argument(Arc::from(setting.text()))).is_ok()
     }
