@@ -74,7 +74,7 @@ fn differences_beside([alone, beside]: [&str; 2], duration: f64) -> Vec<String> 
 
 /// Whether a model has contacts that may lift off, beside which friction in hinges is refused.
 pub(super) fn may_lift_off(text: &str) -> bool {
-    ["_on_face\"", "disc_on_disc\""].iter().any(|kind| text.contains(kind))
+    ["_on_face\"", "disc_on_disc\"", "loose = true"].iter().any(|kind| text.contains(kind))
 }
 
 #[test]

@@ -552,8 +552,10 @@ fn a_wedged_load_is_not_relied_on() {
         let settings = parameters(&[("mu", mu), ("mu_s", mu), ("cord_force", "0 N")]);
         let model = Model::parse(text).expect("sound").with(&settings).expect("sound settings");
         let report = hold(&model, &options("gravity")).expect("solvable");
-        (report.verdict, load(&report).self_locking, report.text(Style::PLAIN).contains("do not rely on it"))
+        let text = report.text(Style::PLAIN);
+        let doubts = ["do not rely on it", "wedged by a knock"].map(|words| text.contains(words));
+        (report.verdict, load(&report).self_locking, doubts)
     };
-    assert_eq!(told("0.7"), (HoldVerdict::HoldsOrSlips, true, true));
-    assert_eq!(told("0.6"), (HoldVerdict::Moves, false, true));
+    assert_eq!(told("0.7"), (HoldVerdict::HoldsOrSlips, true, [true, true]));
+    assert_eq!(told("0.6"), (HoldVerdict::Moves, false, [false, true]));
 }

@@ -23,6 +23,7 @@ use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
+use crate::motion::moving::connected::{connected, parts_of_contacts};
 use crate::pattern::{ContactPhase, JointPhase, Phase};
 use crate::report::Verdict;
 use nalgebra::DVector;
@@ -216,9 +217,10 @@ fn sets_of_open(event: &EventInstant<'_>) -> Result<(Vec<usize>, Vec<Vec<usize>>
     let EventInstant { mechanism, configuration, previous, .. } = *event;
     let speed = |v: &Velocity| v.linear.amax().max(v.angular.abs() * mechanism.size);
     let fastest = configuration.velocities.iter().map(speed).fold(0.0, f64::max);
-    let little = (AT_REST * fastest).max(LITTLE_FLIGHT * least_flight(mechanism, configuration)?);
+    let least = least_flights(mechanism, configuration)?;
     let is_apart = |contact: &ContactId| {
         let [gap, rate] = configuration.gap(mechanism, *contact);
+        let little = (AT_REST * fastest).max(LITTLE_FLIGHT * least[contact.index()]);
         let was_closed = previous.is_some_and(|phase| !phase.is_open(mechanism, contact.index()));
         !was_closed && (gap > TOUCHES * mechanism.size || rate > little)
     };
@@ -227,20 +229,29 @@ fn sets_of_open(event: &EventInstant<'_>) -> Result<(Vec<usize>, Vec<Vec<usize>>
     Ok((numbers(apart), subsets(&numbers(touching))?))
 }
 
-/// The velocity `u` with which a contact leaves its face for a flight that rounding of places hides, `u^2/(2 a) = d` with the
-/// least length `d` and the greatest acceleration `a` of the bodies without contacts that may lift off (m/s).
+/// For each contact the velocity `u` with which it leaves its face for a flight that rounding of places hides, `u^2/(2 a) = d` with
+/// the least length `d` and the greatest acceleration `a`, without contacts that may lift off, of the bodies that are connected with
+/// its own (m/s).
 ///
 /// # Errors
 /// As [`KineticEquations::new`].
-pub(super) fn least_flight(mechanism: &Mechanism, configuration: &Configuration) -> Result<f64, Faults> {
+pub(super) fn least_flights(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+) -> Result<Vec<f64>, Faults> {
     let all: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
     let free = mechanism.without_contacts(&all);
     let unknowns = KineticEquations::new(&free, configuration)?.frictionless();
     let bodies = unknowns.rows(0, 3 * mechanism.bodies.len());
     let in_metres =
         |(index, value): (usize, &f64)| value.abs() * if index % 3 == 2 { mechanism.size } else { 1.0 };
-    let greatest = bodies.iter().enumerate().map(in_metres).fold(0.0, f64::max);
-    Ok((2.0 * greatest * TOUCHES * mechanism.size).sqrt())
+    let parts = connected(mechanism);
+    let flight = |part: Option<usize>| {
+        let own = bodies.iter().enumerate().filter(|(index, _)| Some(parts[index / 3]) == part);
+        let greatest = own.map(in_metres).fold(0.0, f64::max);
+        (2.0 * greatest * TOUCHES * mechanism.size).sqrt()
+    };
+    Ok(parts_of_contacts(mechanism).into_iter().map(flight).collect())
 }
 
 /// All sets of some of these, the empty one first.

@@ -1,7 +1,7 @@
 //! Which bodies joints connect.
 
-use crate::ids::JointId;
-use crate::mechanism::{Mechanism, frames_of};
+use crate::ids::{Frame, JointId};
+use crate::mechanism::{Contact, Mechanism, frames_of};
 
 /// For each body a number that it shares with the bodies that are connected with it by joints.
 pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
@@ -13,6 +13,16 @@ pub(in crate::motion) fn connected(mechanism: &Mechanism) -> Vec<usize> {
         }
     }
     parts
+}
+
+/// For each contact a number that it shares with those between bodies that are connected with its own.
+pub(in crate::motion) fn parts_of_contacts(mechanism: &Mechanism) -> Vec<Option<usize>> {
+    let parts = connected(mechanism);
+    let part = |contact: &Contact| {
+        let body = frames_of(mechanism, contact.joint).into_iter().find_map(Frame::body);
+        body.map(|body| parts[body.index()])
+    };
+    mechanism.contacts.iter().map(part).collect()
 }
 
 /// Puts what two members belong to together.

@@ -175,6 +175,7 @@ const BALANCED: [Balanced; 32] = [
     Balanced { settings: &[("direction", "-1")], ..balanced("painleve-klein", 1.0, 1) },
     balanced("peg-in-hole", 0.5, 0),
     balanced("quick-return", 0.6, 2),
+    balanced("rattling-drawer", 0.1, 20),
     balanced("rod-on-floor", 0.3, 2),
     balanced("scotch-yoke", 0.2, 20),
     Balanced {

@@ -7,13 +7,13 @@ mod course;
 
 use super::impulse::AT_REST;
 use super::joints::TOUCHES;
-use super::lifting::least_flight;
+use super::lifting::least_flights;
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, Frame, JointId};
-use crate::mechanism::{EndStop, Mechanism, frames_of};
+use crate::ids::{ContactId, JointId};
+use crate::mechanism::{EndStop, Mechanism};
 use crate::model::SliderKind;
-use crate::motion::moving::connected::connected;
+use crate::motion::moving::connected::parts_of_contacts;
 use crate::motion::moving::energy::kinetic;
 use crate::motion::options::ImpactLaw;
 use crate::progress::Work;
@@ -172,7 +172,7 @@ pub(in crate::motion) fn landing(
 
 /// The outcome of an impact in which what would leave for a flight that rounding of places hides has come to rest.
 fn followed(mut course: Course<'_>) -> Result<(Configuration, Vec<(usize, f64)>), Faults> {
-    let least = least_flight(course.mechanism, course.before)?;
+    let least = least_flights(course.mechanism, course.before)?;
     loop {
         let after = match course.outcome() {
             Err(faults) => return Err(tipping(course, faults)),
@@ -180,7 +180,7 @@ fn followed(mut course: Course<'_>) -> Result<(Configuration, Vec<(usize, f64)>)
         };
         let flies = rates(course.mechanism, &after.configuration);
         let rests = |(k, rate): &(usize, f64)| {
-            course.own.contains(k) && !course.resting.contains(k) && *rate > 0.0 && *rate <= least
+            course.own.contains(k) && !course.resting.contains(k) && *rate > 0.0 && *rate <= least[*k]
         };
         let further: Vec<usize> = flies.into_iter().filter(rests).map(|(k, _)| k).collect();
         if further.is_empty() {
@@ -220,14 +220,4 @@ fn rates(mechanism: &Mechanism, configuration: &Configuration) -> Vec<(usize, f6
     let gaps = mechanism.one_sided().map(|contact| (contact.index(), configuration.gap(mechanism, contact)));
     let touching = gaps.filter(|(_, [gap, _])| *gap <= TOUCHES * mechanism.size);
     touching.map(|(k, [_, rate])| (k, rate)).collect()
-}
-
-/// For each contact a number that it shares with those between bodies that are connected with its own.
-fn parts_of_contacts(mechanism: &Mechanism) -> Vec<Option<usize>> {
-    let parts = connected(mechanism);
-    let part = |contact: &crate::mechanism::Contact| {
-        let body = frames_of(mechanism, contact.joint).into_iter().find_map(Frame::body);
-        body.map(|body| parts[body.index()])
-    };
-    mechanism.contacts.iter().map(part).collect()
 }
