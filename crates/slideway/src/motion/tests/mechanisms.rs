@@ -154,7 +154,7 @@ const fn balanced(name: &'static str, duration: f64, events: usize) -> Balanced 
 
 /// Every gallery model with inertia or a drive, so that something happens in each: driven ones are slowed down until
 /// they return, or go on through places where hinges turn back.
-const BALANCED: [Balanced; 32] = [
+const BALANCED: [Balanced; 33] = [
     balanced("bell-crank", 1.0, 0),
     balanced("box-on-incline", 0.3, 1),
     balanced("cam-and-spring", 0.3, 5),
