@@ -57,7 +57,8 @@ impl Run<'_, '_> {
         self.smooth.equations.place(self.smooth.time, &self.smooth.state);
         let before = self.smooth.equations.configuration.clone();
         let (whole, ends) = mechanism.with_faces_of_stops();
-        let Landing { after, blows } = landing(&whole, &before, self.options.impacts, self.work)?;
+        let Landing { after, blows } =
+            landing((&whole, mechanism.contacts.len()), &before, self.options.impacts, self.work)?;
         self.smooth.set_velocities(&after.velocities);
         causes.retain(|cause| {
             !matches!(

@@ -44,6 +44,8 @@ pub(super) struct Impact<'m> {
     pub(super) before: &'m Configuration,
     /// The contacts whose gaps are zero.
     pub(super) own: Vec<usize>,
+    /// The greatest rate of their gaps before, beside which rates are rounding (m/s).
+    fastest: f64,
     /// Of these those that come to rest at their faces.
     pub(super) resting: Vec<usize>,
     /// The guided sliders of which it does not count whether they would tip.
@@ -109,7 +111,9 @@ impl<'m> Impact<'m> {
         (own, law, work): (Vec<usize>, ImpactLaw, Work<'m>),
     ) -> Self {
         let (resting, upright) = (Vec::new(), Vec::new());
-        Self { mechanism, before, own, resting, upright, part: 1.0, law, work }
+        let of_own = rates(mechanism, before).into_iter().filter(|(k, _)| own.contains(k));
+        let fastest = of_own.map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
+        Self { mechanism, before, own, fastest, resting, upright, part: 1.0, law, work }
     }
 
     /// The course in which contacts return no more work than they have taken.
@@ -140,12 +144,12 @@ impl<'m> Impact<'m> {
 
     /// The contacts whose gaps are zero.
     fn touches(&self, configuration: &Configuration) -> Vec<Touch> {
+        let known = |rate: f64| if rate.abs() <= AT_REST * self.fastest { 0.0 } else { rate };
         let touch = |(contact, rate)| {
-            let id = ContactId(contact);
             let bounces = !self.resting.contains(&contact);
-            let closed = (-self.before.gap(self.mechanism, id)[1]).max(0.0);
+            let closed = (-known(self.before.gap(self.mechanism, ContactId(contact))[1])).max(0.0);
             let restitution = if bounces { self.mechanism.contacts[contact].restitution } else { 0.0 };
-            Touch { contact, rate, end: self.part * restitution * closed }
+            Touch { contact, rate: known(rate), end: self.part * restitution * closed }
         };
         let own = rates(self.mechanism, configuration).into_iter().filter(|(k, _)| self.own.contains(k));
         own.map(touch).collect()
@@ -155,13 +159,12 @@ impl<'m> Impact<'m> {
     fn course(&self) -> Result<Course, Faults> {
         let impulses = self.own.iter().map(|k| (*k, 0.0)).collect();
         let mut course = Course { configuration: self.before.clone(), impulses, returned: 0.0 };
-        let fastest = self.touches(self.before).iter().map(|touch| touch.rate.abs()).fold(0.0, f64::max);
         for _ in 0..4 * self.mechanism.joints.len() + 2 {
             let touches = self.touches(&course.configuration);
             let is_over = |touch: &Touch| {
                 let short = touch.rate - touch.end;
                 let short = if self.resting.contains(&touch.contact) { -short.abs() } else { short };
-                short >= -AT_REST * fastest
+                short >= -AT_REST * self.fastest
             };
             if touches.iter().all(is_over) {
                 return Ok(course);

@@ -96,7 +96,8 @@ pub(in crate::motion) fn impact_within(
         let given = stops.iter().find(|(given, _)| given == joint);
         given.iter().for_each(|(_, restitution)| contact.restitution = *restitution);
     }
-    let Landing { after, blows } = landing(&whole, configuration, ImpactLaw::Course, work)?;
+    let faces = mechanism.contacts.len();
+    let Landing { after, blows } = landing((&whole, faces), configuration, ImpactLaw::Course, work)?;
     let blow = |found: FaceBlow| Blow {
         stops: found.of_stops(mechanism, &ends).map(|(stop, impulse)| (stop.joint, impulse)).collect(),
         energy_lost: found.energy_lost,
@@ -134,13 +135,14 @@ impl FaceBlow {
     }
 }
 
-/// The impact of the contacts whose gaps are zero and close.
+/// The impact of the contacts whose gaps are zero and close, of a mechanism whose end stops are contacts from a number on: what rests
+/// at its stop stays or leaves like any joint at rest.
 ///
 /// # Errors
 /// Two sliders that are pressed by nothing, an impact that friction turns into a jam, one in which a guided slider would tip, one
 /// with several outcomes, more states than are tried.
 pub(in crate::motion) fn landing(
-    mechanism: &Mechanism,
+    (mechanism, first_stop): (&Mechanism, usize),
     configuration: &Configuration,
     law: ImpactLaw,
     work: Work<'_>,
@@ -148,7 +150,8 @@ pub(in crate::motion) fn landing(
     let touching = rates(mechanism, configuration);
     let fastest = touching.iter().map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
     let parts = parts_of_contacts(mechanism);
-    let mut left: Vec<usize> = touching.iter().map(|(k, _)| *k).collect();
+    let takes_part = |(k, rate): &&(usize, f64)| *k < first_stop || *rate < -AT_REST * fastest;
+    let mut left: Vec<usize> = touching.iter().filter(takes_part).map(|(k, _)| *k).collect();
     let mut found = Landing { after: configuration.clone(), blows: Vec::new() };
     for &(contact, rate) in &touching {
         if rate >= -AT_REST * fastest || !left.contains(&contact) {
