@@ -53,9 +53,10 @@ impl Field {
 
     fn residue_of_words(self, words: &[Word]) -> u64 {
         let Some((&last, others)) = words.split_last() else { return 0 };
-        let shift = self.multiplier(remainder(1 << Word::BITS, self.prime));
-        let last = last % self.prime;
-        others.iter().rev().fold(last, |rest, &word| self.plus(shift.times(rest), word % self.prime))
+        let shift = self.multiplier(remainder(1_u128 << Word::BITS, self.prime));
+        // Words have 32 bits on some machines.
+        let of_word = |word: Word| low(u128::from(word)) % self.prime;
+        others.iter().rev().fold(of_word(last), |rest, &word| self.plus(shift.times(rest), of_word(word)))
     }
 
     fn plus(self, one: u64, other: u64) -> u64 {

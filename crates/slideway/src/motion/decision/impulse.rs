@@ -50,10 +50,13 @@ impl<'s> Impulses<'s> {
         Self { instant, outputs: instant.impulse_outputs(), speeds, work }
     }
 
-    /// Counts velocities of at least this magnitude, too, in what velocities are rounding beside (m/s).
-    pub(super) fn count_velocities_of(&mut self, speed: f64) {
-        let greatest = self.speeds.iter().copied().fold(speed, f64::max);
-        self.speeds.fill(greatest);
+    /// Counts velocities of at least this magnitude, and those of one another, in what velocities of these joints and hinges are
+    /// rounding beside (m/s).
+    pub(super) fn count_velocities_of(&mut self, speed: f64, among: impl Fn(usize) -> bool) {
+        let own = self.speeds.iter_mut().enumerate().filter(|(number, _)| among(*number));
+        let own: Vec<&mut f64> = own.map(|(_, speed)| speed).collect();
+        let greatest = own.iter().fold(speed, |greatest, speed| greatest.max(**speed));
+        own.into_iter().for_each(|speed| *speed = greatest);
     }
 
     /// Puts jumps without friction in the place of what loads are otherwise, and to the changes of gaps their rates before;

@@ -212,6 +212,13 @@ impl<'m> Impact<'m> {
         after
     }
 
+    /// Returns whether a joint is one of the bodies that are connected with those that collide.
+    fn concerns(&self, joint: JointId) -> bool {
+        let parts = connected(self.mechanism);
+        let part = |joint: JointId| body_of(self.mechanism, joint).map(|body| parts[body.index()]);
+        self.own.iter().any(|k| part(self.mechanism.contacts[*k].joint) == part(joint))
+    }
+
     fn names(&self, touches: &[Touch]) -> Vec<String> {
         let closing = touches.iter().any(|touch| touch.rate < 0.0);
         let named = touches.iter().filter(|touch| touch.rate < 0.0 || !closing);
@@ -266,9 +273,6 @@ impl<'m> Impact<'m> {
         let numbers =
             |touches: Vec<&Touch>| touches.into_iter().map(|touch| touch.contact).collect::<Vec<_>>();
         let open = [apart, &numbers(closing)].concat();
-        let parts = connected(self.mechanism);
-        let part = |joint: JointId| body_of(self.mechanism, joint).map(|body| parts[body.index()]);
-        let own = part(self.mechanism.contacts[touches[0].contact].joint);
         for left in subsets(&numbers(others))? {
             let touching = Touching::new(self.mechanism, &open, &left);
             let found = match jam_within(&touching.mechanism, configuration, (&|_| false, self.work)) {
@@ -276,7 +280,7 @@ impl<'m> Impact<'m> {
                 found => found?,
             };
             let Jam::Stops(impulses) = found else { continue };
-            if let Some(impulse) = impulses.into_iter().find(|impulse| part(impulse.wedged) == own) {
+            if let Some(impulse) = impulses.into_iter().find(|impulse| self.concerns(impulse.wedged)) {
                 return Ok(Some(Part { jumps: impulse.jumps, pushes: Vec::new(), length: 1.0 }));
             }
         }
@@ -344,7 +348,8 @@ impl<'m> Impact<'m> {
         }
         let fastest = touches.iter().map(|touch| (touch.rate - touch.end).abs()).fold(0.0, f64::max);
         let mut impulses = Impulses::new(&instant, self.work);
-        impulses.count_velocities_of(fastest);
+        let belongs = |number: usize| instant.id_of(number).is_some_and(|joint| self.concerns(joint));
+        impulses.count_velocities_of(fastest, belongs);
         let velocities = impulses.velocities();
         let stopped: Vec<bool> = velocities.iter().map(|velocity| *velocity == 0.0).collect();
         // What pushing makes close faster does not leave what it does not push.
