@@ -54,7 +54,7 @@ impl Input {
     /// It for a question that varies what these texts begin with, as in `mu=0..1`.
     pub(crate) fn varying<'a>(mut self, texts: impl IntoIterator<Item = &'a String>) -> Self {
         let names = texts.into_iter().map(|text| text.split('=').next().unwrap_or(text).trim());
-        self.settings = names.fold(self.settings, |settings, name| settings.varying(name));
+        self.settings = names.fold(self.settings, Settings::varying);
         self
     }
 
