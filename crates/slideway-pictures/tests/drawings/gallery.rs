@@ -7,7 +7,7 @@ use slideway_pictures::NotFinite;
 use slideway_pictures::drawing::svg::{self, Colours, Frame};
 use slideway_pictures::drawing::{
     Bounds, Class, ContactStates, Element, Forces, Point, Scene, SceneOptions, Shape, Sheet, Shown, Text,
-    View, pieces, scene, sheet,
+    View, pieces, scene,
 };
 use slideway_pictures::theme::{DARK, LIGHT};
 use std::iter::once;
@@ -16,13 +16,7 @@ use std::sync::LazyLock;
 /// The models at several positions, and the templates, each with the sheet of all its drawings.
 static CASES: LazyLock<Vec<(String, Case, Sheet)>> = LazyLock::new(|| {
     let with_sheet = |(name, case): (String, Case)| {
-        let sheet = sheet(
-            &case.mechanism,
-            &case.configuration,
-            case.report.as_ref().map(Forces::InMotion),
-            Shown::All,
-        )
-        .unwrap();
+        let sheet = case.sheet(Shown::All).unwrap();
         (name, case, sheet)
     };
     cases().into_iter().map(with_sheet).collect()
@@ -212,14 +206,7 @@ fn every_solution_has_its_picture_and_caption() {
 #[test]
 fn a_solution_that_is_not_there_has_no_sheet() {
     let case = Case::gallery("drawer");
-    let sheet = |number| {
-        sheet(
-            &case.mechanism,
-            &case.configuration,
-            case.report.as_ref().map(Forces::InMotion),
-            Shown::Solution(number),
-        )
-    };
+    let sheet = |number| case.sheet(Shown::Solution(number));
     assert!(sheet(1).is_some());
     assert!(sheet(2).is_none());
     assert!(sheet(0).is_none());
@@ -359,9 +346,7 @@ fn pictures_say_what_they_show_in_words_and_escape_names() {
     let text = slideway::gallery::find("klepp-2002").unwrap().text;
     let text = text.replace("A bar sliding in two horizontal slots", "A <b> & \\\"quoted\\\" title");
     let case = Case::new(&text, &Settings::default());
-    let sheet =
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let sheet = case.sheet(Shown::All).unwrap();
     for theme in [LIGHT, DARK] {
         let svg = svg::write(&sheet.scene, &sheet.frame(Some(800.0), Colours::Theme(theme))).unwrap();
         assert!(svg.contains("<title>A &lt;b&gt; &amp; &quot;quoted&quot; title</title>"));
@@ -394,9 +379,7 @@ fn one_view_serves_many_configurations() {
 #[test]
 fn a_drawing_with_a_place_that_is_no_number_is_refused() {
     let case = Case::gallery("drawer");
-    let sheet =
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let sheet = case.sheet(Shown::All).unwrap();
     let write = |bounds: Bounds, scene: &Scene| {
         let frame = Frame { bounds, title: "", description: "", width: None, colours: Colours::Theme(LIGHT) };
         svg::write(scene, &frame)

@@ -9,8 +9,7 @@ fn drawn(name: &str, parameters: &[(&str, &str)]) -> Sheet {
     let settings =
         parameters.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
     let case = Case::new(slideway::gallery::find(name).unwrap().text, &settings);
-    sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-        .unwrap()
+    case.sheet(Shown::All).unwrap()
 }
 
 fn shapes(sheet: &Sheet, class: Class) -> Vec<&Shape> {
@@ -119,9 +118,7 @@ fn only_what_friction_locks_has_the_picture() {
     assert!(!drawn("drawer", &[]).description.contains("Why it jams"));
     let tips =
         Case::new(include_str!("../../../../docs/src/examples/guided-tips.toml"), &Settings::default());
-    let sheet =
-        sheet(&tips.mechanism, &tips.configuration, tips.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let sheet = tips.sheet(Shown::All).unwrap();
     assert!(!sheet.description.contains("Why it jams"));
     assert_eq!(drawn("drawer", &[("mu", "0.7")]).description.matches("It jams: no force").count(), 1);
 }
@@ -132,9 +129,7 @@ fn redundant_guides_have_the_picture_with_their_open_contacts() {
     let plays = [("mu", "0.9"), ("play_left", "0.6 mm"), ("play_right", "0.2 mm")];
     let settings = plays.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, *value));
     let case = Case::new(slideway::gallery::find("drawer-on-two-rails").unwrap().text, &settings);
-    let sheet =
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let sheet = case.sheet(Shown::All).unwrap();
     let locking = locking(case.report.as_ref().unwrap(), &case.mechanism, &case.configuration).unwrap();
     let pressed = locking.pattern.chars().filter(|sign| "+-".contains(*sign)).count();
     assert!(pressed >= 2, "{}", locking.pattern);
@@ -152,9 +147,7 @@ fn why_there_is_no_picture_is_said() {
          [coordinates.phi]\nrotation = \"bob\"\nrate = 1\n[points]\nO = [0, 1]",
     );
     let case = Case::new(&with_pendulum, &Settings::default().parameter("mu", "0.7"));
-    let sheet =
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let sheet = case.sheet(Shown::All).unwrap();
     assert!(sheet.description.contains("It jams"), "{}", sheet.description);
     let said =
         "Why it jams is not drawn: the forces that lock it are not followed where hinges have friction";

@@ -5,7 +5,7 @@ use nalgebra::Vector2;
 use slideway::fault::{Fault, FaultKind};
 use slideway::model::Settings;
 use slideway_pictures::drawing::{
-    Class, ContactStates, Forces, Point, Scene, SceneOptions, Shape, Sheet, Shown, View, scene, sheet,
+    Class, ContactStates, Point, Scene, SceneOptions, Shape, Sheet, Shown, View, scene,
 };
 
 fn overview(case: &Case) -> (View, Scene) {
@@ -256,9 +256,7 @@ fn an_outline_moves_with_its_body() {
 }
 
 fn captions(case: &Case) -> Vec<String> {
-    let sheet =
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let sheet = case.sheet(Shown::All).unwrap();
     sheet.scene.texts().map(|(_, text)| text.text.clone()).collect()
 }
 
@@ -276,13 +274,7 @@ fn play_is_said_to_be_exaggerated_where_it_is() {
 #[test]
 fn weights_stand_beside_the_loads_to_scale() {
     let case = Case::gallery("telescopic-boom");
-    let sheet = sheet(
-        &case.mechanism,
-        &case.configuration,
-        case.report.as_ref().map(Forces::InMotion),
-        Shown::Mechanism,
-    )
-    .unwrap();
+    let sheet = case.sheet(Shown::Mechanism).unwrap();
     let lengths: Vec<f64> = of_class(&sheet.scene, Class::Load)
         .into_iter()
         .filter_map(|shape| match shape {
@@ -341,9 +333,7 @@ fn forces_act_on_what_moves() {
 #[test]
 fn the_heading_tells_settings_and_reasons() {
     let case = Case::gallery("klepp-2002");
-    let plain =
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All)
-            .unwrap();
+    let plain = case.sheet(Shown::All).unwrap();
     let settings = Settings::default().parameter("mu_1", "0.3").position("q", "-0.4 m");
     let fault = Fault::general(FaultKind::MotionWithoutInertia { motion: "pin moves".to_owned() });
     let told = plain.clone().unsolved(&fault.into()).changed_by(&settings);

@@ -23,6 +23,7 @@ use slideway::mechanism::Mechanism;
 use slideway::model::{Model, Settings};
 use slideway::report::SolveReport;
 use slideway::solve::solve;
+use slideway_pictures::drawing::{Forces, Sheet, Shown, sheet};
 
 /// A model in a state, with its solutions if it has any.
 struct Case {
@@ -41,5 +42,10 @@ impl Case {
 
     fn gallery(name: &str) -> Self {
         Self::new(slideway::gallery::find(name).unwrap().text, &Settings::default())
+    }
+
+    /// The drawings of its solutions in motion.
+    fn sheet(&self, shown: Shown) -> Option<Sheet> {
+        sheet(&self.mechanism, &self.configuration, self.report.as_ref().map(Forces::InMotion), shown)
     }
 }

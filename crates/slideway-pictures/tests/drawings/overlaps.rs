@@ -5,7 +5,7 @@ use slideway::mechanism::JointKind;
 use slideway::model::Settings;
 use slideway::{Drawing, GROUND};
 use slideway_pictures::drawing::{
-    Class, ContactStates, Forces, Point, Scene, SceneOptions, Shape, Shown, View, scene, sheet,
+    Class, ContactStates, Point, Scene, SceneOptions, Shape, Shown, View, scene,
 };
 
 fn overview(case: &Case) -> (View, Scene) {
@@ -86,13 +86,7 @@ fn ground_that_two_guides_share_is_hatched_once() {
 #[test]
 fn no_load_lies_on_a_reaction() {
     let case = Case::gallery("wedge");
-    let sheet = sheet(
-        &case.mechanism,
-        &case.configuration,
-        case.report.as_ref().map(Forces::InMotion),
-        Shown::Solution(1),
-    )
-    .unwrap();
+    let sheet = case.sheet(Shown::Solution(1)).unwrap();
     let arrows = |class: Class| -> Vec<[Point; 2]> {
         let arrows = of_class(&sheet.scene, class).into_iter().filter_map(|shape| match shape {
             Shape::Arrow { from, to } => Some([*from, *to]),

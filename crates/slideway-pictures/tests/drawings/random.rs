@@ -4,8 +4,8 @@ use crate::Case;
 use crate::random_mechanisms::{cases, mechanisms};
 use proptest::prelude::*;
 use slideway::model::{Model, Settings};
+use slideway_pictures::drawing::Shown;
 use slideway_pictures::drawing::svg::{self, Colours};
-use slideway_pictures::drawing::{Forces, Shown, sheet};
 use slideway_pictures::theme::LIGHT;
 
 proptest! {
@@ -20,7 +20,7 @@ proptest! {
                 .is_ok_and(|mechanism| slideway::configuration::Configuration::new(&mechanism).is_ok())
         }));
         let case = Case::new(&text, &Settings::default());
-        let sheet = sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), Shown::All).unwrap();
+        let sheet = case.sheet(Shown::All).unwrap();
         prop_assert!(sheet.bounds.size().iter().all(|side| side.is_finite() && *side < 20_000.0));
         for element in &sheet.scene.elements {
             let bounds = element.shape.bounds().unwrap();

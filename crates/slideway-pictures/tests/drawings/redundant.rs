@@ -4,7 +4,7 @@ use crate::Case;
 use slideway::model::Settings;
 use slideway::report::Solution;
 use slideway_pictures::drawing::{
-    Class, ContactStates, Forces, Point, Scene, SceneOptions, Shape, Shown, View, scene, sheet,
+    Class, ContactStates, Point, Scene, SceneOptions, Shape, Shown, View, scene,
 };
 
 /// A plate on two rails, one above the other, pulled at its upper edge.
@@ -198,10 +198,7 @@ fn all_pads_of_a_block_are_drawn() {
     let text = format!("{upper}supports = {{ between = {{ at = \"50 mm\", play = \"0.1 mm\" }} }}\n{rest}")
         .replace("stiffness = \"k\"\n", "");
     let case = Case::new(&text, &Settings::default());
-    let sheet = |shown| {
-        sheet(&case.mechanism, &case.configuration, case.report.as_ref().map(Forces::InMotion), shown)
-            .unwrap()
-    };
+    let sheet = |shown| case.sheet(shown).unwrap();
     for shown in [Shown::Mechanism, Shown::Solution(1)] {
         assert_eq!(of_class(&sheet(shown).scene, Class::Pad).count(), 6);
     }
