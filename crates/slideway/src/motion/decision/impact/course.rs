@@ -44,6 +44,8 @@ pub(super) struct Impact<'m> {
     pub(super) before: &'m Configuration,
     /// The contacts whose gaps are zero.
     pub(super) own: Vec<usize>,
+    /// For each joint whether it is one of bodies that are connected with those that collide.
+    concerned: Vec<bool>,
     /// The greatest rate of their gaps before, beside which rates are rounding (m/s).
     fastest: f64,
     /// Of these those that come to rest at their faces.
@@ -113,7 +115,11 @@ impl<'m> Impact<'m> {
         let (resting, upright) = (Vec::new(), Vec::new());
         let of_own = rates(mechanism, before).into_iter().filter(|(k, _)| own.contains(k));
         let fastest = of_own.map(|(_, rate)| rate.abs()).fold(0.0, f64::max);
-        Self { mechanism, before, own, fastest, resting, upright, part: 1.0, law, work }
+        let parts = connected(mechanism);
+        let part = |joint: JointId| body_of(mechanism, joint).map(|body| parts[body.index()]);
+        let is_own = |joint| own.iter().any(|k| part(mechanism.contacts[*k].joint) == part(joint));
+        let concerned = (0..mechanism.joints.len()).map(|joint| is_own(JointId(joint))).collect();
+        Self { mechanism, before, own, concerned, fastest, resting, upright, part: 1.0, law, work }
     }
 
     /// The course in which contacts return no more work than they have taken.
@@ -212,11 +218,9 @@ impl<'m> Impact<'m> {
         after
     }
 
-    /// Returns whether a joint is one of the bodies that are connected with those that collide.
-    fn concerns(&self, joint: JointId) -> bool {
-        let parts = connected(self.mechanism);
-        let part = |joint: JointId| body_of(self.mechanism, joint).map(|body| parts[body.index()]);
-        self.own.iter().any(|k| part(self.mechanism.contacts[*k].joint) == part(joint))
+    /// Returns whether a sliding joint or hinge takes part; what is not connected with it keeps its velocities.
+    fn concerns(&self, instant: &Instant<'_>, number: usize) -> bool {
+        instant.id_of(number).is_some_and(|joint| self.concerned[joint.index()])
     }
 
     fn names(&self, touches: &[Touch]) -> Vec<String> {
@@ -280,7 +284,8 @@ impl<'m> Impact<'m> {
                 found => found?,
             };
             let Jam::Stops(impulses) = found else { continue };
-            if let Some(impulse) = impulses.into_iter().find(|impulse| self.concerns(impulse.wedged)) {
+            if let Some(impulse) = impulses.into_iter().find(|impulse| self.concerned[impulse.wedged.index()])
+            {
                 return Ok(Some(Part { jumps: impulse.jumps, pushes: Vec::new(), length: 1.0 }));
             }
         }
@@ -348,8 +353,7 @@ impl<'m> Impact<'m> {
         }
         let fastest = touches.iter().map(|touch| (touch.rate - touch.end).abs()).fold(0.0, f64::max);
         let mut impulses = Impulses::new(&instant, self.work);
-        let belongs = |number: usize| instant.id_of(number).is_some_and(|joint| self.concerns(joint));
-        impulses.count_velocities_of(fastest, belongs);
+        impulses.count_velocities_of(fastest, |number| self.concerns(&instant, number));
         let velocities = impulses.velocities();
         let stopped: Vec<bool> = velocities.iter().map(|velocity| *velocity == 0.0).collect();
         // What pushing makes close faster does not leave what it does not push.
@@ -413,7 +417,10 @@ impl<'m> Impact<'m> {
             }
         }
         let mut all: Vec<Option<Assessment>> = vec![None];
-        for group in &impulses.instant.groups {
+        let instant = impulses.instant;
+        let concerns =
+            |group: &&Group| group.members(instant.joints.len()).any(|number| self.concerns(instant, number));
+        for group in instant.groups.iter().filter(concerns) {
             let mut found = impulses.admissible(&question, &options, group)?;
             if found.unsolved > 0 {
                 let joints = self.names(touches);
