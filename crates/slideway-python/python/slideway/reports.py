@@ -136,6 +136,7 @@ __all__ = [
     "ModeMargin",
     "ModelSummary",
     "Named",
+    "OnFace",
     "OneFaceHint",
     "OneFaceReason",
     "OpenRange",
@@ -524,6 +525,13 @@ another solution.
 - `"reversal"`: Sliding or turning reverses.
 - `"no_mode_problem"`: Beyond there is no mode problem: the mechanism cannot be assembled or solved, or the
 model is not allowed."""
+
+OnFace = Literal["closed", "tips", "opens"]
+"""What a corner or a block does on a face that it may leave.
+
+- `"closed"`: It stays there.
+- `"tips"`: One corner of a block stays, the other one leaves it.
+- `"opens"`: It leaves."""
 
 OneFaceReason = Literal["pulls", "changes_side", "jams"]
 """Reasons why a joint needs its second face.
@@ -1892,8 +1900,7 @@ class HoldReport(_mixins.HoldReport, Report):
     load: LoadReport | None
     """The load that is varied, if one is."""
     friction: FrictionNeeded | None
-    """How much static friction the loads need as they are; absent with a varied load, without friction, and
-    where hinges rub, of which each value tried takes many linear programs."""
+    """How much static friction the loads need as they are; absent with a varied load, and without friction."""
     at_rest: AtRest | None
     """The states of rest, if there is one of which the reactions were decided."""
     releases: tuple[Release, ...]
@@ -1961,6 +1968,11 @@ class JointMode(Record):
     """Its name."""
     mode: str
     """The mode in words: "touching at lower right and upper left"."""
+    face: OnFace | None = None
+    """What it does on a face that it may leave; absent on a guide that holds it."""
+    slip: int | None = None
+    """How it starts from rest: 1 if it slides along its guide, -1 if against it, 0 if it sticks; absent of what
+    is not at rest."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
