@@ -2,10 +2,10 @@
 
     python stepping.py PROGRAM [NUMBER] [FIRST]
 
-Each system is one or two rigid bodies, hinged to one another or not, with corners that may touch a floor and a wall, at random
-places and velocities. The simulator knows nothing of events: Moreau's midpoint rule (Moreau 1988; Jean 1999) in the coordinates x, y
-and angle of every body, hinges as constraints. In each step every touching corner is open, sticks or slides; the state is the one of
-the previous step if it still holds, else all are tried. It converges with the first order to the motion by Moreau's law: an impact
+Each system is one or two rigid bodies, hinged to one another or not, with friction in that hinge or without, with corners that may touch
+a floor and a wall, at random places and velocities. The simulator knows nothing of events: Moreau's midpoint rule (Moreau 1988; Jean 1999) in the coordinates x, y
+and angle of every body, hinges as constraints. In each step every touching corner is open, sticks or slides, and every hinge with friction sticks or turns, with a couple
+of its radius times the magnitude of its force; the state is the one of the previous step if it still holds, else all are tried. It converges with the first order to the motion by Moreau's law: an impact
 comes up to a step too late, which costs up to a step's way, in either direction. So the same system is run with steps of h and h/2.
 Places at the end must agree within WAYS of the ways h v with the greatest velocity v of a body, and over all systems the differences from
 slideway must fall with h. Where both steps themselves are farther apart than a hundredth of a metre, the motion hangs on the order of its
@@ -39,7 +39,7 @@ def turned(angle: float, vector: np.ndarray) -> np.ndarray:
 
 
 class System:
-    """Bodies (mass, inertia), corners (body, place, face, mu, restitution) and hinges (body, place, body, place)."""
+    """Bodies (mass, inertia), corners (body, place, face, mu, restitution) and hinges (body, place, body, place, friction radius)."""
 
     def __init__(self, bodies, corners, hinges, places, rates):
         self.bodies, self.corners, self.hinges = bodies, corners, hinges
@@ -63,7 +63,7 @@ class System:
         axes = (np.array([1.0, 0.0]), np.array([0.0, 1.0]))
         rows = [
             self.row(places, one, at, axis) - self.row(places, other, there, axis)
-            for one, at, other, there in self.hinges
+            for one, at, other, there, _ in self.hinges
             for axis in axes
         ]
         return np.array(rows).reshape(-1, len(places))
@@ -72,7 +72,13 @@ class System:
         def end(body, local):
             return places[3 * body : 3 * body + 2] + turned(places[3 * body + 2], local)
 
-        return np.array([end(a, at) - end(b, there) for a, at, b, there in self.hinges]).reshape(-1)
+        return np.array([end(a, at) - end(b, there) for a, at, b, there, _ in self.hinges]).reshape(-1)
+
+    def turn_row(self, hinge):
+        """The rate of the first body of a hinge against the second."""
+        row = np.zeros(len(self.places))
+        row[3 * hinge[0] + 2], row[3 * hinge[2] + 2] = 1.0, -1.0
+        return row
 
     def run(self, steps: int):
         """The places and rates at the end."""
@@ -100,18 +106,43 @@ class System:
             body, local, face, _, _ = self.corners[k]
             normal = FACES[face][1]
             rows.append((self.row(places, body, local, normal), self.row(places, body, local, np.array([normal[1], -normal[0]]))))
-        guess = tuple(before.get(k, "open") for k in touching)
-        states = itertools.chain([guess], itertools.product(("open", "stick", "left", "right"), repeat=len(touching)))
-        for state in states:
-            found = self.attempt((rates, free), hinges, [(self.corners[k], *row) for k, row in zip(touching, rows)], state)
+        rough = [number for number, hinge in enumerate(self.hinges) if hinge[4] > 0.0]
+        names = [*touching, *(("hinge", number) for number in rough)]
+        guess = tuple(before.get(name, "open" if name in touching else "stick") for name in names)
+        choices = [("open", "stick", "left", "right")] * len(touching) + [("stick", "left", "right")] * len(rough)
+        for state in itertools.chain([guess], itertools.product(*choices)):
+            corners = [(self.corners[k], *row) for k, row in zip(touching, rows)]
+            turning = dict(zip(rough, state[len(touching) :]))
+            found = self.with_directions((rates, free), (hinges, turning), corners, state[: len(touching)])
             if found is not None:
-                return found, dict(zip(touching, state))
+                return found, dict(zip(names, state))
         raise ArithmeticError("no state")
 
+    def with_directions(self, velocities, hinges, touching, state):
+        """The velocities of a state: the directions of the forces of hinges that turn are those of the solution."""
+        rows, turning = hinges
+        directions = {number: np.zeros(2) for number, does in turning.items() if does != "stick"}
+        for _ in range(50):
+            found = self.attempt(velocities, (rows, turning, directions), touching, state)
+            if found is None:
+                return None
+            after, forces = found
+            new = {number: forces[2 * number : 2 * number + 2] for number in directions}
+            new = {number: force / max(np.linalg.norm(force), 1e-300) for number, force in new.items()}
+            if all(abs(new[number] - directions[number]).max() < 1e-12 for number in new):
+                return after if self.is_allowed(velocities, (rows, turning), touching, (state, after, forces)) else None
+            directions = new
+        return None
+
     def attempt(self, velocities, hinges, touching, state):
-        """The velocities if each corner does this; nothing if that contradicts a law."""
+        """The velocities and impulses with these equations; nothing if they are singular."""
         rates, free = velocities
-        equations, forces, wanted = [*hinges], [*hinges], [0.0] * len(hinges)
+        rows, turning, directions = hinges
+        equations, forces, wanted = [*rows], [*rows], [0.0] * len(rows)
+        for number, direction in directions.items():
+            lever = self.hinges[number][4] * (1.0 if turning[number] == "left" else -1.0)
+            for axis in range(2):
+                forces[2 * number + axis] = rows[2 * number + axis] + lever * direction[axis] * self.turn_row(self.hinges[number])
         for (corner, normal, tangent), does in zip(touching, state):
             if does == "open":
                 continue
@@ -123,32 +154,46 @@ class System:
                 wanted.append(0.0)
             else:
                 forces.append(normal + (corner[3] if does == "left" else -corner[3]) * tangent)
-        after, impulses = free, np.zeros(0)
-        if equations:
-            rows, columns = np.array(equations), np.array(forces)
-            matrix = (rows * self.inverse) @ columns.T
-            if np.linalg.cond(matrix) > 1e12:
-                return None
-            impulses = np.linalg.solve(matrix, np.array(wanted) - rows @ free)
-            after = free + self.inverse * (columns.T @ impulses)
-        place, little = len(hinges), 1e-10
+        for number in (number for number, does in turning.items() if does == "stick"):
+            equations.append(self.turn_row(self.hinges[number]))
+            forces.append(equations[-1])
+            wanted.append(0.0)
+        if not equations:
+            return free, np.zeros(0)
+        left, columns = np.array(equations), np.array(forces)
+        matrix = (left * self.inverse) @ columns.T
+        if np.linalg.cond(matrix) > 1e12:
+            return None
+        impulses = np.linalg.solve(matrix, np.array(wanted) - left @ free)
+        return free + self.inverse * (columns.T @ impulses), impulses
+
+    def is_allowed(self, velocities, hinges, touching, found):
+        """Whether no law is contradicted."""
+        rates, (rows, turning), (state, after, impulses) = velocities[0], hinges, found
+        place, little = len(rows), 1e-10
         for (corner, normal, tangent), does in zip(touching, state):
             if does == "open":
                 if normal @ after < -corner[4] * min(normal @ rates, 0.0) - little:
-                    return None
+                    return False
                 continue
             if impulses[place] < -little:
-                return None
+                return False
             if does == "stick":
                 if abs(impulses[place + 1]) > corner[3] * impulses[place] + little:
-                    return None
+                    return False
                 place += 2
             else:
-                slip = tangent @ after
-                if slip * (-1.0 if does == "left" else 1.0) < -little:
-                    return None
+                if tangent @ after * (-1.0 if does == "left" else 1.0) < -little:
+                    return False
                 place += 1
-        return after
+        for number, does in turning.items():
+            if does == "stick":
+                if abs(impulses[place]) > self.hinges[number][4] * np.linalg.norm(impulses[2 * number : 2 * number + 2]) + little:
+                    return False
+                place += 1
+            elif self.turn_row(self.hinges[number]) @ after * (-1.0 if does == "left" else 1.0) < -little:
+                return False
+        return True
 
     def model(self) -> str:
         """The same system as a model of slideway."""
@@ -169,8 +214,8 @@ class System:
         for k, (body, _, face, mu, restitution) in enumerate(self.corners):
             text += f'[joints.c{k}]\ntype = "corner_on_face"\nblock = "b{body}"\nat = "P{k}"\nface = {ends[face]}\n'
             text += f"mu = {mu!r}\nrestitution = {restitution!r}\nclosed = false\n"
-        for k, (one, _, other, _) in enumerate(self.hinges):
-            text += f'[joints.h{k}]\ntype = "hinge"\nbetween = ["b{one}.H{k}", "b{other}.H{k}"]\n'
+        for k, (one, _, other, _, radius) in enumerate(self.hinges):
+            text += f'[joints.h{k}]\ntype = "hinge"\nbetween = ["b{one}.H{k}", "b{other}.H{k}"]\nfriction_radius = {radius!r}\n'
         for body in range(len(self.bodies)):
             held = any(body == hinge[2] for hinge in self.hinges)
             vx, vy, spin = map(float, self.rates[3 * body : 3 * body + 3])
@@ -182,7 +227,7 @@ class System:
 
 
 def random_system(number: int) -> System:
-    """One system of each kind in turn: a box, a rod at a wall, a box with an arm."""
+    """One system of each kind in turn: a box, a rod at a wall, a box with an arm, every other one on a rough pin."""
     draw = random.Random(number)
     mu = lambda: round(draw.uniform(0.1, 0.7), 3)
     restitution = draw.choice([0.0, 0.0, 0.3])
@@ -216,7 +261,8 @@ def random_system(number: int) -> System:
     # The arm's centre moves as the hinge does and turns about it.
     whole = rates[2] + spin
     rates[3:6] = [rates[0] + whole * local[1], rates[1] - whole * local[0], whole]
-    return System(bodies, corners, [(0, np.zeros(2), 1, local)], places, rates)
+    radius = draw.uniform(0.005, 0.05) if number % 2 == 0 else 0.0
+    return System(bodies, corners, [(0, np.zeros(2), 1, local, radius)], places, rates)
 
 
 def by_slideway(program: str, system: System):
@@ -283,7 +329,7 @@ def end_of(report, system: System):
                 places[3 * body + axis] = system.places[3 * body + axis] + values[name]["value"]
                 rates[3 * body + axis] = values[name]["rate"]
         places[3 * body + 2], rates[3 * body + 2] = turn["value"], turn["rate"]
-    for one, at, other, there in system.hinges:
+    for one, at, other, there, _ in system.hinges:
         here = places[3 * one : 3 * one + 2] + turned(places[3 * one + 2], at)
         arm = turned(places[3 * other + 2], there)
         places[3 * other : 3 * other + 2] = here - arm

@@ -52,8 +52,8 @@ fn without_proof(faults: Faults, input: &Input) -> Failure {
         }
         FaultKind::ZeroSlidingVelocity { contacts, why: NoSliding::Starts | NoSliding::Stands } => {
             Some(format!(
-                "friction of what does not slide is free within its limit, so that the states of {} are no mode problem; \
-                 without `--proof` they are listed, in floating point",
+                "the states of {}, at rest, are a mode problem only where static friction is kinetic friction, without preload \
+                 and height, and no forces are left open where all sticks; without `--proof` they are listed, in floating point",
                 contacts.join(", ")
             ))
         }

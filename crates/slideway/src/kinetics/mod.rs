@@ -427,6 +427,11 @@ impl SlidingRow {
         -self.0.right_hand_side
     }
 
+    /// The row with its right-hand side.
+    pub(crate) fn into_equation(self) -> ConstraintRow {
+        self.0
+    }
+
     /// The acceleration of sliding that belongs to the unknowns (m/s^2), the velocities' part included.
     pub(crate) fn acceleration(&self, unknowns: &DVector<f64>) -> f64 {
         self.change(unknowns) + self.of_velocities()

@@ -2,7 +2,7 @@
 
 use super::mode_problem::{ProblemData, Sliding, mode_problem, none_stands, self_stresses};
 use super::parts::Parts;
-use super::resting::may_lift_off;
+use super::resting::{may_lift_off, mode_problem_at_rest};
 use super::trail::Trail;
 use crate::configuration::{Configuration, Follower};
 use crate::fault::Faults;
@@ -17,13 +17,22 @@ use crate::sharing::{check_assembly, elasticity, shared_load};
 use nalgebra::DVector;
 
 /// The mode problem of a model in floating point: a problem with exact numbers, which differ from those of the
-/// mechanism by rounding.
+/// mechanism by rounding. Its unknowns are those of the contacts, and behind them two for each joint that does not slide, first `p` of
+/// all, then `q` of all (theory, section 12).
 ///
 /// # Errors
-/// Whatever [`solve`](crate::solve::solve) refuses.
+/// Whatever [`solve`](crate::solve::solve) refuses; friction in hinges; of what does not slide static friction above kinetic friction,
+/// faces of different heights, and forces that are left open where all sticks.
 pub fn exact_mode_problem(model: &Model) -> Result<ModeProblem, Faults> {
-    let Stages { mechanism, influence, velocity_signs, .. } = Stages::new(model)?;
-    mode_problem(&mechanism, &influence, &velocity_signs)
+    let mechanism = Mechanism::new(model)?;
+    mechanism.check_size()?;
+    mechanism.check_frictionless_hinges()?;
+    let configuration = Configuration::new(&mechanism)?;
+    let (stages, equations) = Stages::with_standing(mechanism, configuration)?;
+    if !stages.standing.is_empty() {
+        return mode_problem_at_rest(&stages, &equations);
+    }
+    mode_problem(&stages.mechanism, &stages.influence, &stages.velocity_signs)
 }
 
 /// A model in its state, ready for its mode problem.

@@ -14,9 +14,11 @@ use rstest::rstest;
 use serde::Deserialize;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
+use slideway::modes::{ModeSolution, SearchOptions, search};
 use slideway::report::{Report, Solution, SolveReport, Status, Verdict};
-use slideway::solve::solve;
+use slideway::solve::{exact_mode_problem, solve};
 use slideway::{HoldOptions, hold};
+use std::ops::ControlFlow;
 
 const REFERENCE: &str = include_str!("../../../../reference/one-sided-rest.toml");
 const BOX: &str = include_str!("../../models/box-on-incline.toml");
@@ -319,6 +321,30 @@ fn assert_springs(report: &SolveReport, system: &System) -> usize {
     compared
 }
 
+/// Holds the states to be those of the mode problem of which a proof is written, each once; it has none with a second law of
+/// friction, or where forces may be left open.
+fn assert_as_mode_problem(report: &SolveReport, system: &System, leaves_open: bool) {
+    let problem = exact_mode_problem(&Model::parse(&system.text()).unwrap());
+    if leaves_open || system.contacts.iter().any(|contact| contact.mu_static.is_some()) {
+        assert!(problem.is_err(), "{}", system.text());
+        return;
+    }
+    let found = search(&problem.unwrap(), &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
+    let found = found.lists(100, 16).solutions;
+    let text = || format!("{found:#?}\n{:#?}\n{}", report.solutions, system.text());
+    assert_eq!(found.len(), report.solutions.len(), "{}", text());
+    for solution in &report.solutions {
+        let size = solution.contacts.iter().map(|one| one.normal_force.abs()).fold(1.0, f64::max);
+        let is_same = |other: &&ModeSolution| {
+            solution.contacts.iter().zip(&other.normal_force).all(|(one, force)| {
+                let force = if one.gap_acceleration.is_some() { force.max(0.0) } else { *force };
+                (one.normal_force - force).abs() < 1e-7 * size
+            })
+        };
+        assert!(found.iter().any(|other| is_same(&other)), "{}", text());
+    }
+}
+
 /// An odd number of states where all contacts are at rest and no drive acts (theory, section 12).
 fn is_at_rest(system: &System) -> bool {
     let rests = |contact: &Contact| contact.rests() || contact.kind == "holding" || contact.mu == 0.0;
@@ -375,6 +401,7 @@ proptest! {
             prop_assert!(solution.residual < 10.0 * rounding(worst, report.condition), "{} {worst}\n{}", solution.residual, system.text());
         }
         assert_springs(&report, &system);
+        assert_as_mode_problem(&report, &system, leaves_open);
         if report.every_load_has_one_state == Some(true) {
             prop_assert_eq!((states.len(), leaves_open), (1, false), "{}", system.text());
         }

@@ -50,9 +50,6 @@ pub fn simulate_with(
     mechanism.check_no_press_fit("a motion in time")?;
     let mechanism = &mechanism.with_loose_faces()?;
     mechanism.check_one_sided_in_excess()?;
-    if mechanism.friction_circles.iter().any(|circle| circle.radius > 0.0) {
-        mechanism.check_no_one_sided("a motion with friction in hinges")?;
-    }
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);

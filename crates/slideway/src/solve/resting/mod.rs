@@ -11,10 +11,11 @@
 //! ```
 //!
 //! is one system of linear equations, and all patterns are tried: four for a corner at rest, ten for a block, three for each choice
-//! of sides of a joint with two faces, two for each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. Three absolute
-//! values for each contact would state the same as a block problem, whose search is proven, with patterns beside that no state
-//! has; the native states also have static friction above kinetic, and what the equations leave open.
+//! of sides of a joint with two faces, two for each contact that slides. Where the equations leave forces open, what the inequalities leave is a polyhedron. As a
+//! mode problem (`absolute.rs`), which a proof file proves, they have patterns beside that no state has; the native states also have
+//! static friction above kinetic.
 
+mod absolute;
 mod elastic;
 mod jam;
 mod patterns;
@@ -38,6 +39,7 @@ use crate::report::{
     Attainability, Continuum, DrivenMotion, HeldFriction, JointMode, Proof, Solution, SolveReport,
     SpeedChange, Verdict,
 };
+pub(super) use absolute::mode_problem as mode_problem_at_rest;
 pub(super) use jam::impulses as jam_impulses;
 use nalgebra::DVector;
 use patterns::{Stuck, System, face_of};
