@@ -80,17 +80,33 @@ fn no_command_writes_over_its_input() {
     }
 }
 
-/// Of contacts at rest there is no mode problem: the answer says so, and nothing is written.
+/// What a ladder that sticks at both ends carries is a range, of which there is no mode problem: the answer says so, and nothing is
+/// written. A box at rest has one.
 #[test]
-fn contacts_at_rest_have_no_proof_file() {
+fn contacts_at_rest_have_a_proof_file_where_their_forces_are_determined() {
     let folder = folder();
     fs::copy(top().join("models/ladder.toml"), folder.path().join("ladder.toml")).unwrap();
     let before = contents(folder.path());
     let refused = run(folder.path(), "solve ladder.toml --proof p");
     assert_eq!(refused.code, 3, "{}", refused.stderr);
     let words = refused.stderr.split_whitespace().collect::<Vec<_>>().join(" ");
-    assert!(words.contains("the states of foot, head are no mode problem"), "{words}");
+    assert!(words.contains("for contacts at rest (foot, head) there is one only if"), "{words}");
     assert_eq!(contents(folder.path()), before);
+    let text = fs::read_to_string(top().join("models/box-on-incline.toml")).unwrap();
+    let rests = text.replace("rate = \"-1 m/s\"", "rate = 0");
+    assert_ne!(text, rests);
+    fs::write(folder.path().join("box.toml"), rests).unwrap();
+    let proven = run(folder.path(), "solve box.toml --proof p");
+    assert_eq!(proven.code, 0, "{}", proven.stderr);
+    let checker = top().join("reference/check_proof.py");
+    let checked = std::process::Command::new("python3")
+        .current_dir(folder.path())
+        .arg(checker)
+        .args(["p.json", "p"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&checked.stdout);
+    assert!(checked.status.success() && said.contains("cells of dimension 0: 1"), "{said}");
 }
 
 /// A hard link, a link, and `FILE.json` of a proof are the input, and so is a standard stream that is that file.

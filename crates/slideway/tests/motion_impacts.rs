@@ -464,6 +464,122 @@ fn both_laws_agree_where_no_slip_is_reversed() {
     assert!(agree > 50 && differ > 0, "{agree} {differ}");
 }
 
+/// A balanced wheel on a rough pin, whose peg strikes a face through the pin: its weight alone presses the pin, `|R| = m g`, so that it
+/// slows down by `r m g/J`. In the impact the pin answers the peg, `|R| = P`: compression takes `P = J w/(a + r)`, and what it
+/// returns, `P = J w'/(a - r)`, returns no more work than it has taken, `w' <= w sqrt((a - r)/(a + r))`.
+#[test]
+fn a_wheel_on_a_rough_pin_strikes_with_its_peg() {
+    let (lever, radius, moment, angle, rate) = (0.3_f64, 0.02_f64, 0.05_f64, 0.5_f64, 3.0_f64);
+    let slowing = radius * 9.81 / moment;
+    let reaches = (rate - (rate * rate - 2.0 * slowing * angle).sqrt()) / slowing;
+    let hits = rate - slowing * reaches;
+    for restitution in [0.0_f64, 0.5, 1.0] {
+        let text = format!(
+            r#"
+            gravity = 9.81
+            [points]
+            O = [0, 0]
+            P = [{:?}, {:?}]
+            A = [0.1, 0]
+            B = [1, 0]
+            [bodies.wheel]
+            points = ["O", "P"]
+            mass = 1
+            centre_of_mass = "O"
+            moment_of_inertia = {moment}
+            [joints.pin]
+            type = "hinge"
+            between = ["wheel.O", "ground.O"]
+            friction_radius = {radius}
+            [joints.peg]
+            type = "corner_on_face"
+            block = "wheel"
+            at = "P"
+            face = ["A", "B"]
+            mu = 0
+            restitution = {restitution}
+            closed = false
+            [coordinates.turn]
+            rotation = "wheel"
+            rate = -{rate}
+            "#,
+            lever * angle.cos(),
+            lever * angle.sin()
+        );
+        let history = history(&text, 1.5);
+        let [time, lost] = impacts(&history)[0];
+        let leaves = hits * restitution.min(((lever - radius) / (lever + radius)).sqrt());
+        is_near(time, reaches, 1e-8);
+        is_near(lost, moment * (hits * hits - leaves * leaves) / 2.0, 1e-9);
+        let end = history.reader().at(1.5).unwrap().configuration.clone();
+        is_near(end.rates[0], 0.0, 1e-12);
+        is_near(end.coordinates[0] + angle, leaves * leaves / (2.0 * slowing), 1e-7);
+        assert!(history.energy_error < 1e-9, "{}", history.energy_error);
+    }
+}
+
+/// A crank without weight strikes a face and stops; a wheel that does not spin sits on a rough pin at its end. Whatever friction does,
+/// the pin takes `R = m L w` from the wheel's centre. By Moreau's law friction opposes the spin that is left, and the wheel has none.
+/// Along the course it is taken along by `c = r m L/J` of what the crank loses until both turn alike, at `w/(1 + c)`; then the crank is
+/// the slower one, and of `c w/(1 + c)` the part `1 - c` is left.
+#[test]
+fn a_crank_that_strikes_takes_a_wheel_along_by_its_pin() {
+    let (length, rate, mass, moment, radius) = (0.5_f64, 2.0_f64, 2.0_f64, 0.1_f64, 0.05_f64);
+    let angle = 1e-6_f64;
+    let text = format!(
+        r#"
+        [points]
+        O = [0, 0]
+        E = [{:?}, {:?}]
+        Q = [{:?}, {:?}]
+        A = [0.1, 0]
+        B = [1, 0]
+        [bodies.crank]
+        points = ["O", "E", "Q"]
+        mass = 1
+        centre_of_mass = "O"
+        moment_of_inertia = 0.2
+        [bodies.wheel]
+        points = ["E"]
+        mass = {mass}
+        centre_of_mass = "E"
+        moment_of_inertia = {moment}
+        [joints.crank]
+        type = "hinge"
+        between = ["crank.O", "ground.O"]
+        [joints.pin]
+        type = "hinge"
+        between = ["wheel.E", "crank.E"]
+        friction_radius = {radius}
+        [joints.stop]
+        type = "corner_on_face"
+        block = "crank"
+        at = "Q"
+        face = ["A", "B"]
+        mu = 0
+        closed = false
+        [coordinates.crank]
+        rotation = "crank"
+        rate = -{rate}
+        [coordinates.wheel]
+        rotation = "wheel"
+        rate = 0
+        "#,
+        length * angle.cos(),
+        length * angle.sin(),
+        0.3 * angle.cos(),
+        0.3 * angle.sin()
+    );
+    let model = Model::parse(&text).unwrap().with(&Settings::default()).unwrap();
+    let c = radius * mass * length / moment;
+    for (law, expected) in [(ImpactLaw::Course, -c * rate / (1.0 + c) * (1.0 - c)), (ImpactLaw::Moreau, 0.0)] {
+        let history = simulate(&model, &SimulateOptions::new(1e-3).impacts(law)).unwrap();
+        let rates = history.reader().at(1e-3).unwrap().configuration.rates.clone();
+        is_near(rates[0], 0.0, 1e-9);
+        is_near(rates[1], expected, 1e-5);
+    }
+}
+
 /// The published frequency of the woodpecker toy (Leine, Glocker and van Campen 2001, 72.91 Hz; case `woodpecker_toy`): bird and
 /// sleeve swing on the spring beside the pole. Small swings are those of the linear geometry of the literature, with the masses
 /// `[[m_S + m_M, m_S l_M, m_S l_G], [., J_M + m_S l_M^2, m_S l_M l_G], [., ., J_S + m_S l_G^2]]` of fall, sleeve and bird: `M w = k

@@ -52,8 +52,8 @@ fn without_proof(faults: Faults, input: &Input) -> Failure {
         }
         FaultKind::ZeroSlidingVelocity { contacts, why: NoSliding::Starts | NoSliding::Stands } => {
             Some(format!(
-                "the states of {}, at rest, are a mode problem only where static friction is kinetic friction, without preload \
-                 and height, and no forces are left open where all sticks; without `--proof` they are listed, in floating point",
+                "for contacts at rest ({}) there is one only if static and kinetic friction are equal, without preload and height, \
+                 and sticking leaves no force undetermined; without `--proof` their states are listed, in floating point",
                 contacts.join(", ")
             ))
         }

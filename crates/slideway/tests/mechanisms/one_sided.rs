@@ -2,7 +2,7 @@
 //! states in descriptor form, other questions, and what is refused.
 
 use crate::answers::{assert_close, contact, mode, only, parameters, report_on, report_with, try_report_on};
-use crate::one_sided_systems::{Contact, State, System, many, random, rounding};
+use crate::one_sided_systems::{Contact, State, System, many, random};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use rstest::rstest;
@@ -119,7 +119,7 @@ pub(crate) fn assert_states(
             report.solutions.iter().filter(|solution| is(solution, system, state, tolerance)).collect();
         assert_eq!(found.len(), 1, "{name}: {state:?} in {:#?}\n{}", report.solutions, system.text());
         let solution = found[0];
-        let most = rounding(state.condition, report.condition);
+        let most = system.rounding(state.condition, report.condition);
         assert!(solution.residual < most, "{name}: {} {most}\n{}", solution.residual, system.text());
         for (k, one) in system.contacts.iter().enumerate() {
             let found = contact(solution, &one.name);

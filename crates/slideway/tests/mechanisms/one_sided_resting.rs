@@ -5,7 +5,7 @@
 //! corner sticks (`g'' = 0`, `v_t' = 0`), slips (`g'' = 0`, `T = -mu N s`) or is open (`N = T = 0`).
 
 use crate::answers::{contact, report_on};
-use crate::one_sided_systems::{Contact, System, many, random, rounding};
+use crate::one_sided_systems::{Contact, System, many, random};
 use crate::random_mechanisms::cases;
 use nalgebra::{DMatrix, DVector, Vector2};
 use proptest::collection::vec;
@@ -398,7 +398,7 @@ proptest! {
         assert_states(&report, &system, &states, 1e-7, "random");
         let worst = states.iter().map(|state| state.condition).fold(1.0, f64::max);
         for solution in &report.solutions {
-            prop_assert!(solution.residual < 10.0 * rounding(worst, report.condition), "{} {worst}\n{}", solution.residual, system.text());
+            prop_assert!(solution.residual < system.rounding(worst, report.condition), "{} {worst}\n{}", solution.residual, system.text());
         }
         assert_springs(&report, &system);
         assert_as_mode_problem(&report, &system, leaves_open);

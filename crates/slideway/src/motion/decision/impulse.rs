@@ -85,11 +85,11 @@ impl<'s> Impulses<'s> {
         }
     }
 
-    /// Puts the velocities of sliding joints after the impulses in the place of their changes: what sticks has none, and friction
-    /// opposes the others.
+    /// Puts the velocities of sliding joints and hinges after the impulses in the place of their changes: what sticks has none, and
+    /// friction opposes the others.
     pub(super) fn put_velocities_after(&mut self, before: &[f64]) {
-        for (joint, velocity) in before.iter().enumerate().take(self.instant.joints.len()) {
-            self.outputs.base[self.instant.sliding_output(joint)] += velocity / self.speeds[joint];
+        for (number, velocity) in before.iter().enumerate() {
+            self.outputs.base[self.instant.acceleration_output(number)] += velocity / self.speeds[number];
         }
     }
 

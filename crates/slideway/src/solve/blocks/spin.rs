@@ -2,13 +2,13 @@
 
 use super::super::mode_problem::AT_REST;
 use super::super::no_sliding::{Why, why};
-use crate::configuration::{Configuration, NO_ACCELERATION};
+use crate::configuration::{Configuration, NO_ACCELERATION, Velocity, free_motions};
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
-use crate::ids::{BodyId, Frame, JointId};
+use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::Influence;
 use crate::mechanism::{Joint, JointKind, Mechanism};
 use crate::problem::TurningHinge;
-use nalgebra::DVector;
+use nalgebra::{DVector, Vector2};
 
 /// The hinges with friction.
 pub(super) struct Spins {
@@ -56,22 +56,28 @@ pub(super) fn never_turn(mechanism: &Mechanism, standing: &[TurningHinge]) -> Re
     faults.or(())
 }
 
-/// Refuses hinges with friction that never turn, whose friction couples are only known within bounds.
+/// Refuses hinges with friction that never turn, whatever contacts lift off, so that their friction couples are only known within
+/// bounds.
 ///
 /// # Errors
 /// A fault for each of them.
 pub(crate) fn never_turning(mechanism: &Mechanism, configuration: &Configuration) -> Result<(), Faults> {
-    let mut faults = Faults::default();
-    let mut moving = configuration.clone();
-    moving.rates.fill(1.0);
-    let turning = turning(mechanism, configuration);
+    let opening: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
+    let motions = free_motions(&mechanism.without_contacts(&opening), configuration);
+    let moving = motions.column_iter().map(|motion| {
+        let of_body = |part: &[f64]| Velocity { linear: Vector2::new(part[0], part[1]), angular: part[2] };
+        let velocities = motion.as_slice().chunks_exact(3).map(of_body).collect();
+        Configuration { velocities, ..configuration.clone() }
+    });
+    let moving: Vec<Configuration> = moving.collect();
+    let turns = |joint: JointId| moving.iter().any(|state| turning(mechanism, state)(joint) != 0.0);
     let joints = mechanism.friction_circles.iter().map(|circle| circle.joint);
-    let still: Vec<JointId> = joints.filter(|joint| turning(*joint) == 0.0).collect();
-    for (&joint, Why { reason, .. }) in still.iter().zip(why_still(mechanism, &moving, &still)) {
-        if reason == NoSliding::Never {
-            faults.push(does_not_turn(mechanism, joint, reason));
-        }
-    }
+    let still: Vec<JointId> = joints.filter(|joint| !turns(*joint)).collect();
+    let somehow = Configuration { rates: vec![1.0; configuration.rates.len()], ..configuration.clone() };
+    let why = why_still(mechanism, &somehow, &still);
+    let never = still.iter().zip(why).filter(|(_, why)| why.reason == NoSliding::Never);
+    let mut faults = Faults::default();
+    never.for_each(|(&joint, why)| faults.push(does_not_turn(mechanism, joint, why.reason)));
     faults.or(())
 }
 
