@@ -5,7 +5,7 @@ use super::{EnclosedOutputs, NotEnclosed, solution};
 use crate::configuration::Configuration;
 use crate::ids::{ContactId, JointId};
 use crate::interval::{Interval, Sign};
-use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled};
+use crate::kinetics::{Assembled, ConstraintRow, Reaction, Wrench, equilibration, scaled, sliding_row};
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::{self, JointKind, Model, SliderKind};
 use crate::modes::{BySide, InfluenceCoefficients, Side};
@@ -36,6 +36,8 @@ pub(super) struct Coefficients<'a> {
     /// Whether every parameter is one number. Then all widths come from rounding, and bounds that hold zero
     /// mean that nothing but zero can be told; else they mean that zero is one of many values.
     pub(super) are_numbers: bool,
+    /// The joints that do not slide.
+    pub(super) at_rest: &'a [JointId],
 }
 
 impl Coefficients<'_> {
@@ -61,6 +63,24 @@ impl Coefficients<'_> {
         let all = self.influence(&answers, (rows.len(), scale), &couples, rubbing)?;
         let numbers = all.numbers().rows(rows.len()..answers.nrows());
         Ok((self.without_shared_jumps(&influence), EnclosedOutputs { influence, numbers, couples }))
+    }
+
+    /// Returns the coefficients of the problem of the contacts, with the accelerations of the joints at rest as further rows.
+    pub(super) fn problem_at_rest(
+        &self,
+        unknowns: &DMatrix<Interval>,
+    ) -> Result<InfluenceCoefficients<Interval>, NotEnclosed> {
+        let normals = (0..self.mechanism.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
+        let rows: Option<Vec<usize>> = normals.map(|force| self.equations.layout.reaction(force)).collect();
+        let rows = rows.ok_or(NotEnclosed::Equations)?;
+        let sliders = self.at_rest.iter().filter_map(|joint| self.mechanism.slider(*joint));
+        let sliding = sliders.map(|slider| {
+            self.acceleration(unknowns, &sliding_row(self.mechanism, self.configuration, slider))
+        });
+        let forces = rows.iter().map(|&row| unknowns.row(row).into_owned());
+        let answers = DMatrix::from_rows(&forces.chain(sliding).collect::<Vec<_>>());
+        let scale = self.greatest_force(&|row| unknowns[(row, 0)]);
+        Ok(self.without_shared_jumps(&self.influence(&answers, (rows.len(), scale), &[], &[])?))
     }
 
     /// Bounds of the influence coefficients of the contacts and hinges, from the rows of all answers: first those of so many
@@ -173,19 +193,24 @@ impl Coefficients<'_> {
     /// The accelerations of the coordinates, a column for each of the unknowns. Self-stresses change none, and neither does a
     /// couple between the two faces of a joint, as [`Self::negative_versions`] says.
     fn accelerations(&self, unknowns: &DMatrix<Interval>) -> Vec<RowDVector<Interval>> {
+        self.equations.coordinate_rows.iter().map(|row| self.acceleration(unknowns, row)).collect()
+    }
+
+    fn acceleration(
+        &self,
+        unknowns: &DMatrix<Interval>,
+        row: &ConstraintRow<Interval>,
+    ) -> RowDVector<Interval> {
         let first = 1 + self.mechanism.contacts.len();
         let cut = first..first + self.equations.layout.cut().len();
-        let output = |row: &ConstraintRow<Interval>| {
-            RowDVector::from_fn(unknowns.ncols(), |_, column| {
-                let terms = row.entries.iter().map(|&(index, value)| value * unknowns[(index, column)]);
-                match column {
-                    0 => terms.fold(Interval::ZERO, |sum, term| sum + term) - row.right_hand_side,
-                    column if cut.contains(&column) => Interval::ZERO,
-                    _ => terms.fold(Interval::ZERO, |sum, term| sum + term),
-                }
-            })
-        };
-        self.equations.coordinate_rows.iter().map(output).collect()
+        RowDVector::from_fn(unknowns.ncols(), |_, column| {
+            let terms = row.entries.iter().map(|&(index, value)| value * unknowns[(index, column)]);
+            match column {
+                0 => terms.fold(Interval::ZERO, |sum, term| sum + term) - row.right_hand_side,
+                column if cut.contains(&column) => Interval::ZERO,
+                _ => terms.fold(Interval::ZERO, |sum, term| sum + term),
+            }
+        })
     }
 
     /// The power of loads and weights, from which each friction force takes its own times the sliding
@@ -267,6 +292,7 @@ impl Coefficients<'_> {
             |(contact, geometry): (&Contact<Interval>, &crate::configuration::ContactGeometry<Interval>)| {
                 let velocity = geometry.sliding_velocity;
                 match velocity.sign() {
+                    _ if self.at_rest.contains(&contact.joint) => Ok(0.0),
                     Some(Sign::Positive) => Ok(1.0),
                     Some(Sign::Negative) => Ok(-1.0),
                     _ if contact.is_frictionless() => Ok(0.0),

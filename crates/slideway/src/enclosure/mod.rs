@@ -36,6 +36,7 @@ pub use outputs::{EnclosedOutputs, Tipping};
 
 use crate::configuration::Configuration;
 use crate::fault::{Faults, nearest};
+use crate::ids::JointId;
 use crate::interval::Interval;
 use crate::kinetics::Assembled;
 use crate::mechanism::{Coordinate, FrictionCircle, Mechanism};
@@ -298,34 +299,66 @@ pub(crate) fn enclosed_block_problem(
     })
 }
 
+/// Bounds of the coefficients of a mechanism of which these joints do not slide, with their accelerations of sliding as further rows,
+/// and what is made of them.
+///
+/// # Errors
+/// As [`enclosure`]; any once the work is to end.
+pub(crate) fn enclosed_at_rest<P>(
+    model: &Model,
+    uncertain: &UncertainParameters,
+    state: (&Mechanism, &Configuration),
+    joints: &[JointId],
+    work: Work<'_>,
+    make: impl FnOnce(&InfluenceCoefficients<Interval>, &Mechanism<Interval>) -> Result<P, NotEnclosed>,
+) -> Result<P, NotEnclosed> {
+    within(model, uncertain, (state, joints), work, |within| {
+        let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
+        make(&within.problem_at_rest(&unknowns)?, within.mechanism)
+    })
+}
+
 /// The problem that is made of coefficients within intervals, with what follows from its solutions.
 fn enclosed<P>(
     model: &Model,
     uncertain: &UncertainParameters,
-    (mechanism, configuration): (&Mechanism, &Configuration),
+    state: (&Mechanism, &Configuration),
     hinges: &[TurningHinge],
     work: Work<'_>,
     make: impl FnOnce(&InfluenceCoefficients<Interval>) -> Result<P, NotEnclosed>,
 ) -> Result<Enclosed<P>, NotEnclosed> {
+    within(model, uncertain, (state, &[]), work, |within| {
+        let rubbing = within.rubbing(hinges)?;
+        let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
+        let (coefficients, outputs) = within.problem(&unknowns, hinges, &rubbing)?;
+        let hinges = with_circles(hinges, within.mechanism);
+        let open = within.mechanism.excess.open.clone();
+        Ok(Enclosed { problem: make(&coefficients)?, outputs, open, coefficients, hinges })
+    })
+}
+
+/// What is made of a mechanism in its configuration within intervals, of which these joints do not slide.
+fn within<R>(
+    model: &Model,
+    uncertain: &UncertainParameters,
+    ((mechanism, configuration), at_rest): ((&Mechanism, &Configuration), &[JointId]),
+    work: Work<'_>,
+    make: impl FnOnce(&Coefficients<'_>) -> Result<R, NotEnclosed>,
+) -> Result<R, NotEnclosed> {
     let given = uncertain.of(model)?;
     let mut mechanism = Mechanism::enclosing(mechanism, model, &given).map_err(NotEnclosed::Values)?;
     uncertain.put_coordinates(&mut mechanism)?;
     let configuration = motion::enclosed(&mechanism, configuration, work)?;
     uncertain.put_friction(&mut mechanism, &configuration)?;
     let equations = Assembled::new(&mechanism, &configuration).map_err(NotEnclosed::Values)?;
-    let within = Coefficients {
+    make(&Coefficients {
         model,
         mechanism: &mechanism,
         configuration: &configuration,
         equations: &equations,
         are_numbers: uncertain.are_numbers(),
-    };
-    let rubbing = within.rubbing(hinges)?;
-    let unknowns = within.unknowns(work).ok_or(NotEnclosed::Equations)?;
-    let (coefficients, outputs) = within.problem(&unknowns, hinges, &rubbing)?;
-    let hinges = with_circles(hinges, &mechanism);
-    let open = mechanism.excess.open.clone();
-    Ok(Enclosed { problem: make(&coefficients)?, outputs, open, coefficients, hinges })
+        at_rest,
+    })
 }
 
 /// Bounds of the solutions of a linear system; none if it is not proven to be regular, or once the work is to end.

@@ -398,6 +398,15 @@ pub(crate) fn gap_acceleration(
 #[derive(Debug, Clone)]
 pub(crate) struct SlidingRow(ConstraintRow);
 
+/// The row of the acceleration of sliding of a joint, exact or within bounds.
+pub(crate) fn sliding_row<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    slider: &Slider<T>,
+) -> ConstraintRow<T> {
+    rows::sliding(mechanism, configuration, slider)
+}
+
 impl SlidingRow {
     /// The row of a sliding joint in a configuration.
     pub(crate) fn new(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Self {

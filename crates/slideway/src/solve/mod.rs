@@ -186,7 +186,8 @@ fn answered(
     let mut report = if stages.mechanism.rough_hinges().next().is_some() {
         blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
     } else if at_rest {
-        resting::of_contacts(stages, equations)?
+        let at_middle = middle(ranges);
+        resting::of_contacts((model, &at_middle), (stages, equations), &options.search, progress)?
     } else if stages.standing.is_empty() {
         sliding(model, ranges, (stages, equations), options, progress)?
     } else {

@@ -15,7 +15,7 @@ use serde::Deserialize;
 use slideway::fault::FaultKind;
 use slideway::model::{Model, Settings};
 use slideway::modes::{ModeSolution, SearchOptions, search};
-use slideway::report::{Report, Solution, SolveReport, Status, Verdict};
+use slideway::report::{Proof, Report, Solution, SolveReport, Status, Verdict};
 use slideway::solve::{exact_mode_problem, solve};
 use slideway::{HoldOptions, hold};
 use std::ops::ControlFlow;
@@ -327,12 +327,14 @@ fn assert_as_mode_problem(report: &SolveReport, system: &System, leaves_open: bo
     let problem = exact_mode_problem(&Model::parse(&system.text()).unwrap());
     if leaves_open || system.contacts.iter().any(|contact| contact.mu_static.is_some()) {
         assert!(problem.is_err(), "{}", system.text());
+        assert_eq!(report.complete, Proof::NotProven, "{}", system.text());
         return;
     }
     let found = search(&problem.unwrap(), &SearchOptions::default(), &mut |_| ControlFlow::Continue(()));
     let found = found.lists(100, 16).solutions;
     let text = || format!("{found:#?}\n{:#?}\n{}", report.solutions, system.text());
     assert_eq!(found.len(), report.solutions.len(), "{}", text());
+    assert_eq!(report.complete, Proof::Proven, "{}", text());
     for solution in &report.solutions {
         let size = solution.contacts.iter().map(|one| one.normal_force.abs()).fold(1.0, f64::max);
         let is_same = |other: &&ModeSolution| {

@@ -14,24 +14,41 @@
 //! same.
 
 use super::patterns::lighter_mass;
-use super::{Pattern, Resting, RestingJoint, Start, greatest_force, joints_of};
+use super::{Pattern, Resting, RestingJoint, Start, TOLERANCE, greatest_force, joints_of};
+use crate::enclosure::{NotEnclosed, UncertainParameters, enclosed_at_rest, enclosed_while};
 use crate::fault::Faults;
+use crate::ids::JointId;
+use crate::interval::Real;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
-use crate::modes::{ContactState, InfluenceCoefficients, ModeProblem, Side};
+use crate::model::Model;
+use crate::modes::certificate::{IntervalMatrix, IntervalModeProblem};
+use crate::modes::{
+    BySide, Certificate, Completeness, ContactState, InfluenceCoefficients, ModeProblem, ModeSolution,
+    SearchOptions, Side, search,
+};
+use crate::progress::Callback;
+use crate::report::Solution;
 use crate::solve::answer::Answer;
 use crate::solve::mode_problem::{none_stands, overflow};
 use crate::solve::stages::Stages;
 use crate::solve::standing::check_standing;
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 /// A joint at rest in the numbers of the problem.
 struct AtRest {
+    joint: JointId,
     contacts: Vec<usize>,
-    /// The acceleration of sliding by a unit of `p` or `q` (1/kg).
+    /// The acceleration of sliding by a unit of `p` or `q` (1/kg), a power of two.
     rho: f64,
-    /// For each side of the contacts twice their coefficients of friction; zero where they open.
-    cone: [Vec<f64>; 2],
+}
+
+/// The numbers of the problem, exact or within bounds: rows of the contacts, of the accelerations of the joints at rest as forces,
+/// and of their cones; columns of the contacts, of `p` and of `q`.
+struct Numbers<T: Real> {
+    columns: BySide<DMatrix<T>>,
+    jumps: BySide<DMatrix<T>>,
+    load: DVector<T>,
 }
 
 /// The mode problem of a mechanism of which some contacts do not slide: with the unknowns of all contacts, then `p` and `q` of each
@@ -50,25 +67,30 @@ pub(in crate::solve) fn mode_problem(
     let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
     let answer = Answer::determinate(stages, equations);
     let resting = Resting::new(&answer, joints, greatest_force(&stages.influence));
-    if !resting.joints.iter().all(|joint| has_one_law(mechanism, joint)) || resting.may_leave_forces_open() {
+    let Some(at_rest) = resting.as_mode_problem() else {
         none_stands(mechanism, &stages.standing)?;
-    }
-    let at_rest: Vec<AtRest> = resting.joints.iter().map(|joint| numbers(mechanism, joint)).collect();
-    let rows: Vec<_> = resting.joints.into_iter().map(|joint| joint.row.into_equation()).collect();
-    let coefficients = stages.data().coefficients(&[], &rows)?;
-    let [positive, negative] = Side::BOTH.map(|side| columns(&coefficients, &at_rest, side));
-    let size = positive.nrows();
-    let [of_positive, of_negative] = {
-        let jumps = coefficients.jumps();
-        Side::BOTH.map(|side| scaled(jumps.get(side), &at_rest).resize(size, size, 0.0))
+        return Err(overflow());
     };
-    let load = coefficients.right_hand_side();
-    let load = scaled(&DMatrix::from_columns(&[load]), &at_rest).column(0).into_owned();
-    ModeProblem::new(positive, negative, of_positive, of_negative, load.resize_vertically(size, 0.0))
+    let rows: Vec<_> = resting.joints.into_iter().map(|joint| joint.row.into_equation()).collect();
+    let Numbers { columns, jumps, load } =
+        numbers(&stages.data().coefficients(&[], &rows)?, mechanism, &at_rest);
+    ModeProblem::new(columns.positive, columns.negative, jumps.positive, jumps.negative, load)
         .map_err(|_| overflow())
 }
 
 impl Resting<'_> {
+    /// The joints at rest as those of a mode problem; none where it would not state the same.
+    fn as_mode_problem(&self) -> Option<Vec<AtRest>> {
+        let mechanism = self.answer.mechanism;
+        let is_stated = self.joints.iter().all(|joint| has_one_law(mechanism, joint));
+        let at_rest = |joint: &RestingJoint| AtRest {
+            joint: joint.joint,
+            contacts: joint.contacts.clone(),
+            rho: (10.0 / lighter_mass(mechanism, joint.joint)).log2().round().exp2(),
+        };
+        (is_stated && !self.may_leave_forces_open()).then(|| self.joints.iter().map(at_rest).collect())
+    }
+
     /// Whether the forces are not determined where all contacts are closed and all joints at rest stick: the rows of any other
     /// pattern are some of these.
     fn may_leave_forces_open(&self) -> bool {
@@ -78,6 +100,45 @@ impl Resting<'_> {
         };
         let set = self.equations(&self.system(pattern, self.answer.mechanism));
         set.is_none_or(|set| set.dimension() > 0)
+    }
+
+    /// Whether bounds of the exact mechanism prove that these are all its states: each is one of its mode problem, which has no other.
+    pub(super) fn are_all(
+        &self,
+        solutions: &[Solution],
+        (model, uncertain): (&Model, &UncertainParameters),
+        options: &SearchOptions,
+        progress: &mut Callback<'_>,
+    ) -> bool {
+        let Some(at_rest) = self.as_mode_problem() else { return false };
+        let Answer { mechanism, configuration, .. } = *self.answer;
+        let enclosed = enclosed_while(progress, |work| {
+            let joints = at_rest.iter().map(|joint| joint.joint).collect::<Vec<_>>();
+            let state = (mechanism, configuration);
+            enclosed_at_rest(model, uncertain, state, &joints, work, |coefficients, mechanism| {
+                within_bounds(&numbers(coefficients, mechanism, &at_rest))
+            })
+        });
+        let Ok(problem) = enclosed else { return false };
+        let found = search(&problem, options, progress);
+        let lists = found.lists(solutions.len() + 1, 1);
+        let is_certain = |one: &ModeSolution| matches!(one.certificate, Certificate::Proven { .. });
+        found.completeness == Completeness::Proven
+            && lists.gaps.is_empty()
+            && lists.singular.is_empty()
+            && lists.undecided.is_empty()
+            && lists.solutions.len() == solutions.len()
+            && lists.solutions.iter().all(is_certain)
+            && solutions.iter().all(|one| lists.solutions.iter().any(|other| self.is_same(one, other)))
+    }
+
+    /// Whether the normal forces of two solutions are the same, up to what counts as rounding.
+    fn is_same(&self, one: &Solution, other: &ModeSolution) -> bool {
+        let scale = other.normal_force.amax().max(self.force);
+        one.contacts.iter().zip(&other.normal_force).all(|(contact, force)| {
+            let force = if contact.gap_acceleration.is_some() { force.max(0.0) } else { *force };
+            (contact.normal_force - force).abs() <= TOLERANCE * scale
+        })
     }
 }
 
@@ -93,52 +154,59 @@ fn has_one_law(mechanism: &Mechanism, joint: &RestingJoint) -> bool {
     })
 }
 
-fn numbers(mechanism: &Mechanism, joint: &RestingJoint) -> AtRest {
-    let twice = |face: usize| {
-        let of = |&k: &usize| {
-            let contact = &mechanism.contacts[k];
-            if face == 1 && contact.opens { 0.0 } else { 2.0 * contact.mu[face] }
-        };
-        joint.contacts.iter().map(of).collect()
+/// The numbers of the problem, of coefficients with the accelerations of the joints at rest as further rows.
+fn numbers<T: Real>(
+    coefficients: &InfluenceCoefficients<T>,
+    mechanism: &Mechanism<T>,
+    at_rest: &[AtRest],
+) -> Numbers<T> {
+    let (contacts, joints) = (coefficients.contacts(), at_rest.len());
+    let size = contacts + 2 * joints;
+    let unit = |row: usize| row.checked_sub(contacts).map_or(1.0, |joint| 1.0 / at_rest[joint].rho);
+    let as_forces = |matrix: &DMatrix<T>| {
+        DMatrix::from_fn(contacts + joints, matrix.ncols(), |row, column| {
+            matrix[(row, column)] * T::exactly(unit(row))
+        })
     };
-    AtRest {
-        contacts: joint.contacts.clone(),
-        rho: 10.0 / lighter_mass(mechanism, joint.joint),
-        cone: [twice(0), twice(1)],
-    }
-}
-
-/// The columns of one side of all unknowns: rows of the contacts, of the accelerations of the joints at rest as forces, and of
-/// their cones.
-fn columns(coefficients: &InfluenceCoefficients, joints: &[AtRest], side: Side) -> DMatrix<f64> {
-    let contacts = coefficients.contacts();
-    let accelerations = contacts + joints.len();
-    let size = accelerations + joints.len();
-    let mut all = scaled(coefficients.columns().get(side), joints).resize(size, size, 0.0);
-    let answers = scaled(&coefficients.eta.positive, joints);
-    let face = usize::from(side == Side::Negative);
-    for (index, joint) in joints.iter().enumerate() {
-        let [p, q] = [contacts + index, accelerations + index];
-        let half = answers.column(joint.contacts[0]) / 2.0;
-        all.view_mut((0, p), (accelerations, 1)).copy_from(&half);
-        all.view_mut((0, q), (accelerations, 1)).copy_from(&-half);
-        match side {
-            Side::Positive => all[(contacts + index, q)] -= 1.0,
-            Side::Negative => all[(contacts + index, p)] += 1.0,
+    let answers = as_forces(&coefficients.eta.positive);
+    let of_contacts = coefficients.columns();
+    let columns = BySide::of(|side| {
+        let face = usize::from(side == Side::Negative);
+        let mut all = as_forces(of_contacts.get(side)).resize(size, size, T::zero());
+        for (index, joint) in at_rest.iter().enumerate() {
+            let (acceleration, cone) = (contacts + index, contacts + joints + index);
+            let [p, q] = [acceleration, cone];
+            for row in 0..contacts + joints {
+                let half = answers[(row, joint.contacts[0])] * T::exactly(0.5);
+                (all[(row, p)], all[(row, q)]) = (half, -half);
+            }
+            match side {
+                Side::Positive => all[(acceleration, q)] -= T::one(),
+                Side::Negative => all[(acceleration, p)] += T::one(),
+            }
+            (all[(cone, p)], all[(cone, q)]) = (T::exactly(side.sign()), T::exactly(-side.sign()));
+            for &k in &joint.contacts {
+                let contact = &mechanism.contacts[k];
+                let presses = face == 0 || !contact.opens;
+                all[(cone, k)] =
+                    if presses { contact.mu[face] * T::exactly(-2.0) } else { T::zero() };
+            }
         }
-        let cone = accelerations + index;
-        (all[(cone, p)], all[(cone, q)]) = (side.sign(), -side.sign());
-        joint.contacts.iter().zip(&joint.cone[face]).for_each(|(&k, twice)| all[(cone, k)] = -twice);
+        all
+    });
+    let jumps = coefficients.jumps();
+    let load = as_forces(&DMatrix::from_columns(&[coefficients.right_hand_side()]));
+    Numbers {
+        columns,
+        jumps: BySide::of(|side| as_forces(jumps.get(side)).resize(size, size, T::zero())),
+        load: load.resize_vertically(size, T::zero()).column(0).into_owned(),
     }
-    all
 }
 
-/// Rows of contacts and of accelerations, these in the unit of `p` and `q`.
-fn scaled(matrix: &DMatrix<f64>, joints: &[AtRest]) -> DMatrix<f64> {
-    let mut scaled = matrix.clone();
-    let contacts = matrix.nrows() - joints.len();
-    for (index, joint) in joints.iter().enumerate() {
-        scaled.row_mut(contacts + index).unscale_mut(joint.rho);
-    }
-    scaled
+/// The problem of all numbers within these bounds.
+fn within_bounds(numbers: &Numbers<crate::interval::Interval>) -> Result<IntervalModeProblem, NotEnclosed> {
+    let bounded = |entries: &DMatrix<_>| IntervalMatrix::from_intervals(entries).ok_or(NotEnclosed::Equations);
+    let sides = |both: &BySide<DMatrix<_>>| both.try_map(|_, entries| bounded(entries));
+    let load = bounded(&DMatrix::from_columns(std::slice::from_ref(&numbers.load)))?;
+    Ok(IntervalModeProblem::new(&sides(&numbers.columns)?, &sides(&numbers.jumps)?, &load)?)
 }

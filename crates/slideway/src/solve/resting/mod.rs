@@ -28,13 +28,16 @@ use super::stages::Stages;
 use super::standing::check_standing;
 use super::standing::polyhedron::{Extremes, Polyhedron};
 use super::state::{Held, State, pattern, signs};
+use crate::enclosure::UncertainParameters;
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::{KineticEquations, SlidingRow};
 use crate::mechanism::{Contact, Mechanism, Slider};
-use crate::modes::{Certificate, ContactState};
+use crate::model::Model;
+use crate::modes::{Certificate, ContactState, SearchOptions};
 use crate::pattern::{Affine, AffineSet, sliding_in_words, sticking_in_words};
+use crate::progress::Callback;
 use crate::report::{
     Attainability, Continuum, DrivenMotion, HeldFriction, JointMode, Proof, Solution, SolveReport,
     SpeedChange, Verdict,
@@ -108,11 +111,25 @@ pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> boo
 ///
 /// # Errors
 /// Guided sliders or preloads among what stands still, guides that share a load, more patterns of states than are tried.
-pub(super) fn of_contacts(stages: &Stages, equations: &KineticEquations) -> Result<SolveReport, Faults> {
+pub(super) fn of_contacts(
+    (model, uncertain): (&Model, &UncertainParameters),
+    (stages, equations): (&Stages, &KineticEquations),
+    options: &SearchOptions,
+    progress: &mut Callback<'_>,
+) -> Result<SolveReport, Faults> {
     check_standing(&stages.mechanism, &stages.standing)?;
     let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
     let force = greatest_force(&stages.influence);
-    Resting::new(&Answer::determinate(stages, equations), joints, force).report()
+    let answer = Answer::determinate(stages, equations);
+    let resting = Resting::new(&answer, joints, force);
+    let mut report = resting.report()?;
+    if report.continua.is_empty()
+        && resting.are_all(&report.solutions, (model, uncertain), options, progress)
+    {
+        report.complete = Proof::Proven;
+        report.open.clear();
+    }
+    Ok(report)
 }
 
 /// The greatest normal force with all contacts closed and without friction, or 1 N.
