@@ -154,13 +154,14 @@ pub fn solve_with(
     let configuration = Configuration::with_progress(&mechanism, progress)?;
     let mut proceed = || progress(&Progress::of("equations", 0, 1)).is_continue();
     let (stages, equations) = Stages::with_standing_while(mechanism, configuration, &mut proceed)?;
-    let mut report = answered(model, (&stages, &equations), &model.ranges()?, options, progress)?;
+    let mut report = answered(model, (&stages, &equations), Some(&model.ranges()?), options, progress)?;
     report.one_face_hints =
         one_face::of_solutions(model, (&stages.mechanism, &stages.configuration), &report);
     Ok(report)
 }
 
-/// [`solve_with`] in stages of the model that are there already, without margins, uncertainty and hints.
+/// [`solve_with`] in stages of the model that are there already, without margins, uncertainty and hints: one value among many, of
+/// which lists of what is at rest are not proven.
 ///
 /// # Errors
 /// As [`solve`].
@@ -171,23 +172,25 @@ pub(crate) fn solve_in(
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
     let equations = KineticEquations::new(&stages.mechanism, &stages.configuration)?;
-    answered(model, (stages, &equations), &[], &options.margins(false), progress)
+    answered(model, (stages, &equations), None, &options.margins(false), progress)
 }
 
-/// The answer for a model in its state, over the ranges of parameters that are known only within bounds.
+/// The answer for a model in its state, over the ranges of parameters that are known only within bounds; none are given of one value
+/// among many.
 fn answered(
     model: &Model,
     (stages, equations): (&Stages, &KineticEquations),
-    ranges: &[ParameterRange],
+    given: Option<&[ParameterRange]>,
     options: &SolveOptions,
     progress: &mut Callback<'_>,
 ) -> Result<SolveReport, Faults> {
+    let ranges = given.unwrap_or_default();
     let at_rest = resting::may_lift_off(&stages.mechanism, &stages.standing);
     let mut report = if stages.mechanism.rough_hinges().next().is_some() {
         blocks::solve(model, (&middle(ranges), ranges), (stages, equations), options, progress)?
     } else if at_rest {
-        let at_middle = middle(ranges);
-        resting::of_contacts((model, &at_middle), (stages, equations), &options.search, progress)?
+        let at_middle = given.map(middle);
+        resting::of_contacts((model, at_middle.as_ref()), (stages, equations), &options.search, progress)?
     } else if stages.standing.is_empty() {
         sliding(model, ranges, (stages, equations), options, progress)?
     } else {

@@ -107,12 +107,13 @@ pub(super) fn may_lift_off(mechanism: &Mechanism, standing: &[ContactId]) -> boo
     standing.iter().any(|contact| mechanism.contacts[contact.index()].opens)
 }
 
-/// All states of a mechanism of which contacts that may lift off do not slide at the start.
+/// All states of a mechanism of which contacts that may lift off do not slide at the start; proven, where that is asked for and their
+/// forces are determined.
 ///
 /// # Errors
 /// Guided sliders or preloads among what stands still, guides that share a load, more patterns of states than are tried.
 pub(super) fn of_contacts(
-    (model, uncertain): (&Model, &UncertainParameters),
+    (model, proven): (&Model, Option<&UncertainParameters>),
     (stages, equations): (&Stages, &KineticEquations),
     options: &SearchOptions,
     progress: &mut Callback<'_>,
@@ -124,6 +125,7 @@ pub(super) fn of_contacts(
     let resting = Resting::new(&answer, joints, force);
     let mut report = resting.report()?;
     if report.continua.is_empty()
+        && let Some(uncertain) = proven
         && resting.are_all(&report.solutions, (model, uncertain), options, progress)
     {
         report.complete = Proof::Proven;
