@@ -5,7 +5,7 @@ use super::report::{
     EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{OnFace, Status, Verdict, spaced};
+use crate::report::{JointMode, OnFace, Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -75,6 +75,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
             .iter()
             .any(|other| other.direction == Sense::Model && other.tips == direction.tips);
     std::iter::once(needs(report, direction, is_advised))
+        .chain(tipping(direction))
         .chain(jam(report, direction, is_advised))
         .map(whole)
         .collect()
@@ -170,11 +171,14 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     needs.join(", ") + &gain
 }
 
-/// " foot lifts off.", of joints that open.
+/// " foot lifts off. shoes tips.", of joints that open or tip.
 fn lifts(only: &DriveSolution) -> String {
-    let opens = only.joints.iter().filter(|joint| joint.face == Some(OnFace::Opens));
-    let words: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
-    words.concat()
+    let word = |joint: &JointMode| match joint.face? {
+        OnFace::Opens => Some(format!(" {} lifts off.", joint.name)),
+        OnFace::Tips => Some(format!(" {} tips.", joint.name)),
+        OnFace::Closed => None,
+    };
+    only.joints.iter().filter_map(word).collect()
 }
 
 /// "push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",
@@ -231,6 +235,13 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
         _ => " More states have their own efforts.",
     };
     format!("{}; {}.{further}", parts.join(", "), range.undetermined.cause())
+}
+
+/// "shoes would tip from mu = 0.45 (1.5 times this friction)."
+fn tipping(direction: &DriveDirection) -> Option<String> {
+    let limit = direction.tipping.as_ref()?;
+    let at = times_friction(limit.factor, direction.mu.map(|mu| limit.factor * mu));
+    Some(format!("{} would tip from {at}.", limit.joints.join(" and ")))
 }
 
 /// When it would jam, or that it never does; none where that is not known.

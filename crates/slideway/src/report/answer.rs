@@ -150,7 +150,9 @@ impl SolveReport {
             return below.into_iter().chain(self.impulse_in_words()).collect();
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
-        let mut sentences = Vec::new();
+        let tips = margins.tipping.iter();
+        let mut sentences: Vec<String> =
+            tips.map(|tips| format!("{} would tip from {}.", tips.joints.join(" and "), at(tips.factor))).collect();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
             sentences.push(if self.status == Status::One {
@@ -163,7 +165,8 @@ impl SolveReport {
         match jams {
             Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
                 let safe = "Below that no load jams it while it moves.".to_owned();
-                return vec![self.end_in_words(margins, &at(jams)), safe];
+                sentences.extend([self.end_in_words(margins, &at(jams)), safe]);
+                return sentences;
             }
             Some(jams) => sentences.push(self.end_in_words(margins, &at(jams))),
             None if margins.another_count.is_none() && self.has_friction() => {
