@@ -224,7 +224,8 @@ fn by_tipping(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
         return vec![whole];
     }
     let ends = |mode: &ModeLimits| [mode.from.unwrap_or(f64::NEG_INFINITY), mode.to.unwrap_or(f64::INFINITY)];
-    let mut cuts: Vec<f64> = modes.iter().flat_map(ends).filter(|at| whole.from < *at && *at < whole.to).collect();
+    let mut cuts: Vec<f64> =
+        modes.iter().flat_map(ends).filter(|at| whole.from < *at && *at < whole.to).collect();
     cuts.extend([whole.from, whole.to]);
     cuts.sort_by(f64::total_cmp);
     cuts.dedup();
@@ -235,7 +236,8 @@ fn by_tipping(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
             !mode.preload_gap && from <= middle && middle <= to
         };
         let tips = modes.iter().find(here).is_some_and(tips);
-        let (verdict, is_motion) = if tips { (TIPS.to_owned(), false) } else { (whole.verdict.clone(), true) };
+        let (verdict, is_motion) =
+            if tips { (TIPS.to_owned(), false) } else { (whole.verdict.clone(), true) };
         Piece { from: pair[0], to: pair[1], verdict, is_motion, known: whole.known }
     };
     cuts.windows(2).map(piece).collect()

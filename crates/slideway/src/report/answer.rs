@@ -151,8 +151,9 @@ impl SolveReport {
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
         let tips = margins.tipping.iter();
-        let mut sentences: Vec<String> =
-            tips.map(|tips| format!("{} would tip from {}.", tips.joints.join(" and "), at(tips.factor))).collect();
+        let mut sentences: Vec<String> = tips
+            .map(|tips| format!("{} would tip from {}.", tips.joints.join(" and "), at(tips.factor)))
+            .collect();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
             sentences.push(if self.status == Status::One {

@@ -123,7 +123,8 @@ impl MarginQuestion<'_> {
 
     /// What tips in the model as its friction grows to the margin against locking, or as it is.
     pub(super) fn tips(&self, value: f64, work: Work<'_>) -> Vec<String> {
-        let is_asked = *self.against == Against::Locking && self.varied.rough_circles([value, value]).is_empty();
+        let is_asked =
+            *self.against == Against::Locking && self.varied.rough_circles([value, value]).is_empty();
         let directions = std::iter::once(self.varied).chain(self.reversed).filter(|_| is_asked);
         let found = directions.filter_map(|varied| locking_margin(varied, value, work).ok());
         let nearest = found.min_by(|(one, _), (other, _)| other.demand(1.0).total_cmp(&one.demand(1.0)));

@@ -274,7 +274,8 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     }
     let mechanism = Mechanism::new(model)?;
     let (state, may_tip) = (held_state(&mechanism, &varied, range), mechanism.may_tip());
-    let sought = answer::Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, found };
+    let sought =
+        answer::Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, found };
     finite(answer::report(model, state, options, &sought))
 }
 

@@ -65,8 +65,8 @@ pub(crate) use standing::{check_none_stands, check_standing};
 pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
-pub(crate) use upright::{Upright, upright};
 pub(crate) use uncertainty::{certain_counts, counted};
+pub(crate) use upright::{Upright, upright};
 pub(crate) use words::joint_mode;
 pub use words::mode_in_words;
 
