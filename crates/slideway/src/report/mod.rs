@@ -709,7 +709,7 @@ impl JointMode {
     /// Where it touches: "on its left corner", "closed".
     pub(crate) fn place(&self) -> &str {
         match self.face {
-            Some(OnFace::Opens) => "opens",
+            Some(OnFace::Opens) => "lifts off",
             Some(OnFace::Closed) if self.place.is_empty() => "closed",
             _ => &self.place,
         }
