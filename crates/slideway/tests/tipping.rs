@@ -4,6 +4,7 @@
 
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
+use slideway::motion::{SimulateOptions, simulate};
 use slideway::size::{SizeOptions, size};
 use slideway::sweep::{GridAxis, Rows, Sweep, SweepOptions};
 use slideway::{
@@ -13,36 +14,7 @@ use std::ops::ControlFlow;
 
 /// A door that is pulled at the height h over its two shoes, which are b apart. At constant speed the pull is mu W, and its
 /// moment about the front shoe, mu W h, lifts the rear one as soon as it exceeds W b/2: from mu = b/(2 h) on.
-const DOOR: &str = r#"
-title = "A sliding door on two shoes"
-gravity = "9.81 m/s^2"
-[parameters]
-b = "900 mm"
-h = "1000 mm"
-mu = 0.3
-[points]
-M = [0, 0]
-K = ["b/2", "h"]
-[bodies.door]
-points = ["M", "K"]
-mass = "30 kg"
-centre_of_mass = [0, "1000 mm"]
-shape = { rectangle = ["b", "2000 mm"] }
-[joints.shoes]
-type = "block_on_face"
-block = "door"
-at = "M"
-along = "0 deg"
-length = "b"
-mu = "mu"
-[coordinates.x]
-slide = "shoes"
-rate = "0.2 m/s"
-[drives.pull]
-coordinate = "x"
-acceleration = 0
-force = { at = "door.K", direction = "0 deg" }
-"#;
+const DOOR: &str = include_str!("../../../docs/src/examples/sliding-door.toml");
 
 fn door(settings: &[(&str, &str)]) -> Model {
     let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
@@ -126,10 +98,13 @@ fn forces_that_are_rounding_are_zero_in_tables() {
         DOOR.replace("block_on_face", "block_slider").replace("along = \"0 deg\"", "along = \"90 deg\"");
     let text = text
         .replace("direction = \"0 deg\"", "direction = \"90 deg\"")
-        .replace("K = [\"b/2\", \"h\"]", "K = [0, \"h\"]");
+        .replace("handle = [\"b/2\", \"h\"]", "handle = [0, \"h\"]");
     let loads = "[loads.one]\ntype = \"force\"\nat = \"door.A\"\ncomponents = [0, \"-17.3 N\"]\n[loads.two]\ntype = \"force\"\nat = \"door.B\"\ncomponents = [0, \"-17.3 N\"]\n";
-    let text = text.replace("M = [0, 0]", "M = [0, 0]\nA = [\"-h\", 0.3]\nB = [\"h\", 0.3]");
-    let model = Model::parse(&(text.replace("\"M\", \"K\"", "\"M\", \"K\", \"A\", \"B\"") + loads)).unwrap();
+    let text = text.replace("[points]", "[points]\nA = [\"-h\", 0.3]\nB = [\"h\", 0.3]");
+    let model = Model::parse(
+        &(text.replace("\"middle\", \"handle\"", "\"middle\", \"handle\", \"A\", \"B\"") + loads),
+    )
+    .unwrap();
     let options = SweepOptions::grid([GridAxis::linear("h", 0.01, 0.2, 40)]);
     let sweep = Sweep::new(&model, &options).unwrap();
     let mut state = sweep.start();
@@ -154,6 +129,19 @@ fn efforts_that_cancel_are_zero() {
         assert_eq!(row.efforts.as_deref(), Some(&[0.0][..]), "{row:?}");
         assert_eq!(row.frictionless.as_deref(), Some(&[0.0][..]), "{row:?}");
     }
+}
+
+/// What touches has no gap and what sticks no velocity in the table of a motion: a block that rocks about one corner.
+#[test]
+fn rounding_is_no_motion_in_tables() {
+    let text = include_str!("../../../docs/src/examples/rocking-block.toml");
+    let history = simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(0.1)).unwrap();
+    let series = history.series(&history.times_in_steps(0.01));
+    for name in ["base.rear.gap", "base.rear.sliding_velocity", "x.rate", "x.acceleration"] {
+        let values = &series.column(name).unwrap().values;
+        assert!(values.iter().all(|value| *value == Some(0.0)), "{name}: {values:?}");
+    }
+    assert!(series.column("turn.rate").unwrap().values[5].unwrap() < -0.1);
 }
 
 #[test]
