@@ -52,6 +52,9 @@ fn every_answer_says_that_it_tips() {
     assert!(sized.contains("its safety factor is 1.5 (beyond, shoes tips), which is enough."), "{sized}");
     let limited = limits(&door(&[]), &LimitsOptions::new("mu=0..1.2".parse::<Vary>().unwrap())).unwrap();
     assert_eq!(limited.answer(), "It tips from mu = 0.45 on (the model has 0.3).");
+    let options = DriveOptions::default().vary("h=0.2 m..5 m".parse::<Vary>().unwrap());
+    let over = drive(&door(&[]), &options).unwrap().answer();
+    assert!(over.contains("Over h from 200 to 5000 mm, shoes tips from 1500 mm on."), "{over}");
     let drawn = drive(&door(&[("h", "2500 mm")]), &DriveOptions::default()).unwrap().answer();
     assert!(drawn.contains(" shoes tips."), "{drawn}");
 }
@@ -99,13 +102,16 @@ fn forces_that_are_rounding_are_zero_in_tables() {
     let text = text
         .replace("direction = \"0 deg\"", "direction = \"90 deg\"")
         .replace("handle = [\"b/2\", \"h\"]", "handle = [0, \"h\"]");
-    let loads = "[loads.one]\ntype = \"force\"\nat = \"door.A\"\ncomponents = [0, \"-17.3 N\"]\n[loads.two]\ntype = \"force\"\nat = \"door.B\"\ncomponents = [0, \"-17.3 N\"]\n";
+    let load = |at: &str| {
+        format!("[loads.{at}]\ntype = \"force\"\nat = \"door.{at}\"\ncomponents = [0, \"-17.3 N\"]\n")
+    };
+    let loads = load("A") + &load("B");
     let text = text.replace("[points]", "[points]\nA = [\"-h\", 0.3]\nB = [\"h\", 0.3]");
     let model = Model::parse(
-        &(text.replace("\"middle\", \"handle\"", "\"middle\", \"handle\", \"A\", \"B\"") + loads),
+        &(text.replace("\"middle\", \"handle\"", "\"middle\", \"handle\", \"A\", \"B\"") + &loads),
     )
     .unwrap();
-    let options = SweepOptions::grid([GridAxis::linear("h", 0.01, 0.2, 40)]);
+    let options = SweepOptions::grid([GridAxis::linear("h", 0.01, 0.2, 40)]).breakpoints(false);
     let sweep = Sweep::new(&model, &options).unwrap();
     let mut state = sweep.start();
     let mut forces = Vec::new();
@@ -123,7 +129,7 @@ fn forces_that_are_rounding_are_zero_in_tables() {
 #[test]
 fn efforts_that_cancel_are_zero() {
     let model = Model::parse(gallery::find("cam-and-spring").unwrap().text).unwrap();
-    let options = DriveOptions::default().vary("speed=50rad/s..100rad/s".parse().unwrap());
+    let options = DriveOptions::default().vary("speed=50rad/s..100rad/s".parse::<Vary>().unwrap());
     let course = drive(&model, &options).unwrap().course.unwrap();
     for row in &course.directions[0].rows {
         assert_eq!(row.efforts.as_deref(), Some(&[0.0][..]), "{row:?}");

@@ -2,7 +2,7 @@
 
 use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
-    EfficiencyKind, EffortRange, PeakEffort, Sense,
+    EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
 use crate::report::{JointMode, OnFace, Status, Verdict, spaced};
@@ -26,8 +26,8 @@ pub(super) fn at_rest(report: &DriveReport) -> impl Iterator<Item = String> + '_
     report.held.iter().map(|held| format!("At rest: {}", held.words))
 }
 
-/// The greatest efforts over what is varied: "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an
-/// effort that hardly varies.
+/// Where joints tip, and the greatest efforts over what is varied: "Over h from 200 to 5000 mm, shoes tips from 1500 mm on.",
+/// "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an effort that hardly varies.
 pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
     let Some(course) = &report.course else { return Vec::new() };
     let vary = &course.vary;
@@ -45,8 +45,17 @@ pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
             Sense::Reversed => format!("Backwards, over {range}, {told}"),
         })
     };
+    let tips = |way: &CourseDirection, limit: &TipsAt| {
+        let over = if way.direction == Sense::Model { "Over" } else { "Backwards, over" };
+        let verb = if limit.joints.len() == 1 { "tips" } else { "tip" };
+        let (side, on) = if limit.above { ("from", " on") } else { ("below", "") };
+        let (names, at) = (limit.joints.join(" and "), vary.shown_in.brief(limit.at));
+        format!("{over} {range}, {names} {verb} {side} {at}{on}.")
+    };
+    let tipping = course.directions.iter().flat_map(|way| way.tips.iter().map(move |limit| (way, limit)));
     let peaks = course.directions.iter().flat_map(|way| way.peaks.iter().map(move |peak| (way, peak)));
-    peaks.filter_map(|(way, peak)| one(way, peak)).collect()
+    let tipping = tipping.map(|(way, limit)| tips(way, limit));
+    tipping.chain(peaks.filter_map(|(way, peak)| one(way, peak))).collect()
 }
 
 /// The advice that makes an undetermined effort determinate.

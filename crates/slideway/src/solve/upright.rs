@@ -2,7 +2,8 @@
 
 use super::margins::GROWING;
 use crate::mechanism::Mechanism;
-use crate::modes::existence::{EndCause, Existence, ModeInterval, is_same_end};
+use crate::modes::ContactState;
+use crate::modes::existence::{EndCause, Existence, ModeEnd, ModeInterval, is_same_end};
 
 /// The modes in which nothing tips: a block that may lift off keeps all of its corners on its face, or none.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,7 +26,8 @@ impl Upright {
             if goes_on { Some(reached.max(to)) } else { end }
         })?;
         let there = modes.into_iter().filter(|mode| is_same_end(until, mode.to.at));
-        let mut tips: Vec<String> = there.flat_map(|mode| tips_at_end(mechanism, mode)).collect();
+        let mut tips: Vec<String> =
+            there.flat_map(|mode| tips_at_end(mechanism, (&mode.pattern, &mode.to))).collect();
         tips.sort_unstable();
         tips.dedup();
         Some(Self { until, tips })
@@ -41,10 +43,10 @@ pub(crate) fn upright<'e>(
 }
 
 /// The joints that tip where a mode ends.
-fn tips_at_end(mechanism: &Mechanism, mode: &ModeInterval) -> Vec<String> {
-    match &mode.to.cause {
+pub(crate) fn tips_at_end(mechanism: &Mechanism, (pattern, end): (&[ContactState], &ModeEnd)) -> Vec<String> {
+    match &end.cause {
         EndCause::OutputBound(bounds) => mechanism.guided_sliders(bounds),
-        EndCause::SideChange(contacts) => mechanism.tipped_by(&mode.pattern, contacts),
+        EndCause::SideChange(contacts) => mechanism.tipped_by(pattern, contacts),
         _ => Vec::new(),
     }
 }
