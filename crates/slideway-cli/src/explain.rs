@@ -1,7 +1,7 @@
 //! Complaints about the arguments, in the words of [`clap`]; where a name is not known, with all that there
 //! are.
 
-use crate::arguments::Arguments;
+use crate::arguments::{Arguments, Destination};
 use crate::diagnostics::{Note, listing, note};
 use crate::outcome::Outcome;
 use crate::output::{Look, Output, complain};
@@ -9,9 +9,10 @@ use crate::refuse;
 use anstream::ColorChoice;
 use clap::builder::Styles;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Arg, Command, CommandFactory};
+use clap::{Arg, Args, Command, CommandFactory};
 use slideway::fault::nearest;
 use slideway::printable;
+use slideway::template::TEMPLATES;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::io::{self, Write};
@@ -61,6 +62,19 @@ fn with_all_names(error: &clap::Error) -> Option<String> {
             let all = commands.iter().map(|one| row(one.get_name(), one.get_about())).collect();
             (format!("there is no command `{name}`"), hint, all)
         }
+        // Whose options come behind its name.
+        ErrorKind::UnknownArgument
+            if path == ["new"] && is_of_all_templates(&quoted(ContextKind::InvalidArg)?) =>
+        {
+            let templates = TEMPLATES.iter().map(|one| (one.name.to_owned(), one.summary().to_owned()));
+            let hint = "`slideway new NAME --output FILE` writes one of these".to_owned();
+            ("which template? None is named".to_owned(), hint, templates.collect())
+        }
+        ErrorKind::MissingRequiredArgument if path == ["simulate"] && misses_the_end(error) => {
+            let message = "until when? The end of the motion is missing".to_owned();
+            let hint = "for instance `--until 1s`, and longer if it is still moving then".to_owned();
+            return Some(note(&Note { message, hint: Some(hint) }));
+        }
         ErrorKind::UnknownArgument if path.first().is_some_and(|first| first == "new") && path.len() == 2 => {
             let name = quoted(ContextKind::InvalidArg)?;
             let options: Vec<&Arg> = command.get_arguments().filter(|one| is_dimension(one)).collect();
@@ -88,6 +102,20 @@ fn with_all_names(error: &clap::Error) -> Option<String> {
         _ => return None,
     };
     Some(listing(&Note { message, hint: Some(hint) }, all))
+}
+
+/// Whether an option is one of every template, to say where the model goes.
+fn is_of_all_templates(option: &str) -> bool {
+    let name = option.trim_start_matches('-').split('=').next().unwrap_or_default();
+    Destination::augment_args(Command::new("new")).get_arguments().any(|one| {
+        one.get_long() == Some(name) || one.get_short().is_some_and(|short| name.starts_with(short))
+    })
+}
+
+/// Whether `--until` alone is missing.
+fn misses_the_end(error: &clap::Error) -> bool {
+    let missing = error.get(ContextKind::InvalidArg);
+    matches!(missing, Some(ContextValue::Strings(names)) if matches!(&names[..], [name] if name.starts_with("--until")))
 }
 
 /// The complaint that a question has no such option, with the one that is meant: another of this name, or one that has this

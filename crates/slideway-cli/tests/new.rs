@@ -27,6 +27,27 @@ fn a_model_is_written_and_its_question_answered() {
 }
 
 #[test]
+fn a_file_without_a_template_lists_the_templates() {
+    let folder = tempfile::tempdir().unwrap();
+    for option in [&["--output", "x.toml"][..], &["-o", "x.toml"], &["--output=x.toml"], &["--force"]] {
+        let run = slideway(&folder, &[&["new"], option].concat());
+        assert_eq!(run.code, 2);
+        assert!(run.stderr.starts_with("error: which template? None is named\n"), "{}", run.stderr);
+        assert!(TEMPLATES.iter().all(|template| run.stderr.contains(template.name)), "{}", run.stderr);
+    }
+    let run = slideway(&folder, &["new", "--what"]);
+    assert!(run.stderr.starts_with("error: `slideway new` has no option `--what`"), "{}", run.stderr);
+}
+
+#[test]
+fn a_motion_without_an_end_is_asked_for_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = slideway(&folder, &["simulate", "drawer.toml"]);
+    assert_eq!(run.code, 2);
+    assert!(run.stderr.contains("until when?") && run.stderr.contains("`--until 1s`"), "{}", run.stderr);
+}
+
+#[test]
 fn every_template_is_written_and_answers() {
     let folder = tempfile::tempdir().unwrap();
     for template in TEMPLATES {

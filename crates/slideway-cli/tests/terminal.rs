@@ -378,3 +378,16 @@ fn drive_names_what_it_could_be_tabulated_over() {
     );
     assert!(last.ends_with("x = 0 m, friction = 1."), "{told}");
 }
+
+#[test]
+fn a_long_table_ends_early_on_a_terminal() {
+    let folder = Folder::new("long");
+    folder.write("drawer.toml", &titled("drawer.toml", "A drawer"));
+    let (shown, code) = on_terminal(&mut folder.command(&words("sweep drawer.toml --vary mu=0..0.5:60")));
+    let rows = shown.lines().filter(|line| line.starts_with(|first: char| first.is_ascii_digit()));
+    // The rows of points begin with their number and a comma; what is said of all of them does not.
+    assert_eq!((code, rows.filter(|line| line.contains(",one,")).count()), (0, 40));
+    assert!(shown.contains("20 more rows: `--output FILE.csv` writes all of them"), "{shown}");
+    let (short, _) = on_terminal(&mut folder.command(&words("sweep drawer.toml --vary mu=0..0.5:40")));
+    assert!(!short.contains("more rows"), "{short}");
+}

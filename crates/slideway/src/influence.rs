@@ -12,6 +12,7 @@
 
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::{Influences, KineticEquations, Layout, Opening, Reaction};
+use crate::units::number::beside;
 use nalgebra::{DMatrix, DVector};
 
 /// The unknowns without friction, and what each contact's friction adds to them.
@@ -115,9 +116,11 @@ impl Influence {
     }
 
     /// All unknowns for given friction forces, eqs. (3)-(5), and these normal forces of the contacts, of which
-    /// only those that are cut are needed, and the negative ones of contacts that lift off.
+    /// only those that are cut are needed, and the negative ones of contacts that lift off. What cancels is 0, not its
+    /// rounding error.
     pub fn unknowns(&self, friction: &[ContactFriction], normal_forces: &DVector<f64>) -> DVector<f64> {
-        &self.frictionless + self.of_forces(friction, normal_forces)
+        let of_forces = self.of_forces(friction, normal_forces);
+        self.frictionless.zip_map(&of_forces, |own, more| beside(own + more, own.abs()))
     }
 
     /// Returns the contribution of these forces of the contacts alone to all unknowns, without any load.

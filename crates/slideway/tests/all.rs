@@ -33,6 +33,7 @@ mod raw_problem;
 mod settings;
 mod sweep;
 mod templates;
+mod tipping;
 mod tutorial;
 mod units;
 mod warnings;

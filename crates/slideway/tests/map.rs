@@ -450,7 +450,7 @@ fn a_map_of_motion_has_the_classes_of_the_acceleration() {
     for (row, column) in (0..12).flat_map(|row| (0..16).map(move |column| (row, column))) {
         let (mu, push) = (middle([0.0, 1.0], column, 16), middle([0.0, 10.0], row, 12));
         let change = if push > 10.0 * mu { SpeedChange::SpeedsUp } else { SpeedChange::SlowsDown };
-        let expected = ClassMeaning::Motion { solutions: vec![vec![change]] };
+        let expected = ClassMeaning::Motion { solutions: vec![vec![change]], tipping: 0 };
         assert_eq!(report.classes[report.class_at(column, row)].meaning, expected, "{mu} {push}");
     }
     let words: Vec<&str> = report.classes.iter().map(|class| &*class.words).collect();

@@ -66,6 +66,12 @@ fn kitchen_drawer() {
 }
 
 #[test]
+fn sliding_door() {
+    // The moment of the pull, mu W h, is W b/2.
+    assert_close(moves(&example("sliding-door.toml", &[]), "h=0.2 m..5 m").met[0].to, 0.9 / (2.0 * 0.3));
+}
+
+#[test]
 fn sash_window() {
     // Half of the weight at the right edge: N H = (W/2)(b/2), held by 2 mu_s N.
     assert_close(self_locking_from(&example("sash.toml", &[]), "rest", "mu_s"), 600.0 / 900.0);

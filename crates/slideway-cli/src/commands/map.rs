@@ -1,6 +1,7 @@
 //! `slideway map`
 
 use crate::arguments::MapArguments;
+use crate::columns::wrapped;
 use crate::failure::Failure;
 use crate::files::Files;
 use crate::input::Input;
@@ -41,7 +42,8 @@ pub(crate) fn map(arguments: &MapArguments, output: &Output) -> Result<Outcome, 
             let svg = to_svg(&report, &input.settings, arguments.theme.colours());
             picture.write_scaled(svg, SHARPNESS, &document.output)?;
             if document.output.path().is_some() {
-                output.write(&format!("{}\n", report.answer()))?;
+                let lines = wrapped(&report.answer(), output.style().width);
+                output.write(&format!("{}\n", lines.join("\n")))?;
             }
         }
     }

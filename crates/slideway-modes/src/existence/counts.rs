@@ -5,6 +5,9 @@ use nalgebra::DVector;
 use super::{Existence, ModeInterval, ModeProblemLine};
 use crate::problem::ContactState;
 
+/// Outputs below this multiple of the greatest term that they are the sum of are rounding errors.
+const ROUNDING: f64 = 1e-13;
+
 /// Ends closer than this fraction of the larger one count as the same.
 const SAME_END: f64 = 1e-10;
 
@@ -136,10 +139,20 @@ impl ModeProblemLine {
         known.len()
     }
 
-    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` for a contact in its gap, then the outputs;
-    /// `None` if its determinant vanishes.
+    /// The unknowns of a pattern: `y_k`, or the share `lambda_k` for a contact in its gap, then the outputs, 0 where
+    /// they are rounding errors of the terms that they are the sum of; `None` if its determinant vanishes.
     pub fn unknowns(&self, pattern: &[ContactState], at: f64) -> Option<DVector<f64>> {
-        self.line(pattern).solution(at)
+        let line = self.line(pattern);
+        let mut unknowns = line.solution(at)?;
+        let (matrix, right) = (line.matrix_at(at), line.right_hand_side_at(at));
+        for output in pattern.len()..unknowns.len() {
+            let term = |contact: usize| (matrix[(output, contact)] * unknowns[contact]).abs();
+            let greatest = (0..pattern.len()).map(term).fold(right[output].abs(), f64::max);
+            if unknowns[output].abs() <= ROUNDING * greatest {
+                unknowns[output] = 0.0;
+            }
+        }
+        Some(unknowns)
     }
 
     /// Signed normal forces of a pattern, 0 in a gap; `None` if its determinant vanishes.

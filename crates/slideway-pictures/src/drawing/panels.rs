@@ -220,13 +220,13 @@ impl Drawn<'_> {
             self.report.filter(|report| report.status == Status::None && report.rejected.is_empty())?;
         let has_rough_hinges = self.mechanism.friction_circles.iter().any(|circle| circle.radius > 0.0);
         let why = if has_rough_hinges {
-            "the forces that lock it are not followed where hinges have friction"
+            "with friction in hinges they are not computed"
         } else if report.margins_missing == Some(MarginsMissing::TooManyModes) {
-            "it has too many contact modes to follow each of them"
+            "it has too many contacts"
         } else {
-            "no contact mode locks as friction grows to that of the model"
+            "with less friction it does not move either"
         };
-        Some(format!("Why it jams is not drawn: {why}."))
+        Some(format!("The forces that lock it are not drawn: {why}."))
     }
 
     /// A solution of the equations in which a guided slider would tip: its reaction acts beyond its ends.

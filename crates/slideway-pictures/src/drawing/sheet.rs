@@ -460,7 +460,7 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
         (Class::Velocity, "sliding velocity".to_owned()),
-        (Class::Opening, "contact that opens, acceleration of its gap".to_owned()),
+        (Class::Opening, "contact that lifts off, acceleration of its gap".to_owned()),
         (Class::Break, "not to scale".to_owned()),
     ];
     let occurs = |class: &Class| scene.elements.iter().any(|element| element.class == *class);

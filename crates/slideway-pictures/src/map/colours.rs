@@ -79,7 +79,12 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
         ClassMeaning::Moves { as_in_model: true, .. }
         | ClassMeaning::Rest { holds: Some(true), may_slip: true } => plain(LOCKED_IN_OPPOSITE),
         ClassMeaning::Moves { .. } => plain(LOCKED_AS_IN_MODEL),
-        ClassMeaning::Motion { solutions } => plain(of_motion(solutions)),
+        ClassMeaning::Motion { solutions, tipping } => {
+            let without_speeds = || numbers[(solutions.len().max(1) - 1).min(numbers.len() - 1)];
+            let has_speeds = solutions.iter().any(|changes| !changes.is_empty());
+            let fill = if has_speeds { of_motion(solutions) } else { without_speeds() };
+            Paint { fill, hatching: (*tipping > 0).then_some(Hatching::Rising) }
+        }
         ClassMeaning::Rest { holds: Some(true), .. } => plain(HOLDS),
         ClassMeaning::Rest { holds: Some(false), .. } => plain(SLIPS),
         ClassMeaning::Continuum => plain(theme.ink),

@@ -22,6 +22,7 @@ __all__ = [
     "Axis",
     "Band",
     "Bar",
+    "BeyondHeld",
     "BeyondRange",
     "BlowUp",
     "Body",
@@ -185,6 +186,7 @@ __all__ = [
     "Theme",
     "Threshold",
     "Tipping",
+    "TippingLimit",
     "TreeReport",
     "UncertainMode",
     "UncertainParameter",
@@ -453,7 +455,7 @@ functions of its couple.
 MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force", "pressure", "efficiency"]
 """Which margin is meant.
 
-- `"locking"`: The factor by which kinetic friction may grow before there is no solution.
+- `"locking"`: The factor by which kinetic friction may grow before there is no solution, or something tips.
 - `"self_locking"`: The factor by which static friction may grow before a load is held however great it is.
 - `"hold"`: The factor by which static friction may be smaller while all loads are held as they are, or one
 however great it is.
@@ -767,6 +769,18 @@ class Bar(Record):
     """Index into the series of the theme, modulo their number."""
     meaning: str
     """Its meaning, for the legend."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BeyondHeld(Record):
+    """What begins beyond an end of what is held."""
+
+    at: float
+    """The end, as a factor of the load, or the effort of the drive (N or N m)."""
+    above: bool
+    """Whether it is the upper end of a range."""
+    words: str
+    """In words: "it tips over shoes.front"."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -1495,6 +1509,9 @@ class DriveDirection(Record):
     tips: tuple[str, ...] = ()
     """The guided sliders that tip where there is no solution, or from that factor on: as block sliders they show
     whether it moves."""
+    tipping: TippingLimit | None = None
+    """From where on a block that may lift off tips over one of its corners, while there is a solution; absent if
+    none does."""
     blow_ups: tuple[BlowUp, ...] | None = None
     """Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many
     modes, or friction in hinges."""
@@ -2083,6 +2100,8 @@ class LoadReport(Record):
     """The factor at which everything else in the report is told: 1 for a load, 0 for a drive."""
     held: tuple[Range, ...]
     """The factors with which it can stay at rest, in ascending order."""
+    beyond: tuple[BeyondHeld, ...] = ()
+    """What it begins to do just beyond each end of these ranges, where contacts may lift off; absent without."""
     undecided: int
     """Patterns of contact sides in which that was not decided: they may hold it with others."""
     self_locking: bool
@@ -2211,6 +2230,9 @@ class Margins(Record):
     tips: tuple[str, ...] = ()
     """The guided sliders that tip there, so that friction need not lock it: as block sliders they show whether
     it moves on."""
+    tipping: TippingLimit | None = None
+    """From where on a block that may lift off tips over one of its corners, while there is a solution; absent if
+    none does."""
     solutions_again: float | None = None
     """From this greater factor on there are solutions again; absent if there are none."""
     uniqueness: float | None = None
@@ -2837,7 +2859,7 @@ class SimulateReport(Report):
 class SizeReport(_mixins.SizeReport, Report):
     """For which values a wanted margin is met."""
 
-    _absent = {"load": None, "tipping": None, "wedged": None}
+    _absent = {"load": None, "tipping": None, "tips": (), "wedged": None}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2862,6 +2884,8 @@ class SizeReport(_mixins.SizeReport, Report):
     """The margin in the model."""
     tipping: Tipping | None
     """Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise."""
+    tips: tuple[str, ...]
+    """Against locking: what tips in the model at its margin, or as it is; absent if nothing does."""
     wedged: float | None
     """The margin of holding in the model while something has wedged it, if that is greater than the one by
     itself, which is wanted; absent otherwise."""
@@ -3167,6 +3191,16 @@ class Tipping(Record):
     moves."""
     throughout: bool
     """True if there is such a solution wherever that was asked: then friction does not lock it."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TippingLimit(Record):
+    """The friction from which on blocks that may lift off tip."""
+
+    factor: float
+    """As a factor of that of the model."""
+    joints: tuple[str, ...]
+    """The joints of these blocks."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)

@@ -2,17 +2,18 @@
 
 use super::efforts::{Efforts, GROWTH};
 use super::peak::{SAME_ROW, peaks};
-use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense};
+use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense, TipsAt};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
 use crate::ids::ContactId;
 use crate::limits::{Method, ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
+use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
 use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Status, Verdict, joints_in_words};
 use crate::scan::{bisect_until, evenly};
-use crate::solve::{Stages, pattern};
+use crate::solve::{Stages, pattern, tips_at_end};
 use std::ops::ControlFlow;
 
 /// Places nearer to zero than this share of the range are zero.
@@ -61,12 +62,37 @@ pub(super) fn direction(
     let rows = course.rows(steps);
     let modes = modes(&rows, &naming);
     let peaks = peaks(&places, (&found, &rows, &blow_ups), efforts);
+    let tips = tips(&found, &naming.mechanism, range);
     let without_mode_problem = RangeWithoutProblem::of(&found);
     let sampled = found.method == Method::Bracketing;
     Ok((
         Guarantee { sampled, words: guarantee(&found, &varied.shown_in) },
-        CourseDirection { direction, rows, modes, blow_ups, peaks, locked: Vec::new(), without_mode_problem },
+        CourseDirection {
+            direction,
+            rows,
+            modes,
+            blow_ups,
+            peaks,
+            tips,
+            locked: Vec::new(),
+            without_mode_problem,
+        },
     ))
+}
+
+/// Where modes end since joints tip.
+fn tips(found: &ModesFound, mechanism: &Mechanism, [from, to]: [f64; 2]) -> Vec<TipsAt> {
+    let ends =
+        found.existence.modes.iter().flat_map(|mode| [(mode, &mode.from, false), (mode, &mode.to, true)]);
+    let tips = ends.filter(|(_, end, _)| from < end.at && end.at < to).map(|(mode, end, above)| TipsAt {
+        at: found.same_ends.told(end.at),
+        above,
+        joints: tips_at_end(mechanism, (&mode.pattern, end)),
+    });
+    let mut tips: Vec<TipsAt> = tips.filter(|one| !one.joints.is_empty()).collect();
+    tips.sort_by(|one, other| one.at.total_cmp(&other.at));
+    tips.dedup();
+    tips
 }
 
 /// The modes of rows, each once, in words: those of a block that floats, where it does so in every row.

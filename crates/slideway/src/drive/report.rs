@@ -1,7 +1,9 @@
 //! Report on driven motion: plain data, which are the JSON output.
 
 use crate::limits::{RangeWithoutProblem, VariedQuantity};
-use crate::report::{CoordinateState, JointMode, Proof, Status, Undetermined, Unlocking, Verdict};
+use crate::report::{
+    CoordinateState, JointMode, Proof, Status, TippingLimit, Undetermined, Unlocking, Verdict,
+};
 use crate::standstill::Range;
 use crate::units::Units;
 use serde::Serialize;
@@ -122,6 +124,9 @@ pub struct DriveDirection {
     /// whether it moves.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tips: Vec<String>,
+    /// From where on a block that may lift off tips over one of its corners, while there is a solution; absent if none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tipping: Option<TippingLimit>,
     /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too
     /// many modes, or friction in hinges.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -265,11 +270,26 @@ pub struct CourseDirection {
     /// several states, and with friction in hinges.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub peaks: Vec<PeakEffort>,
+    /// Where joints begin to tip, in ascending order; absent where none does, and with friction in hinges.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tips: Vec<TipsAt>,
     /// With friction in hinges: ranges without a solution.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub locked: Vec<LockedRange>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
+}
+
+/// Where joints begin to tip.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct TipsAt {
+    /// The value of what is varied.
+    pub at: f64,
+    /// Whether they tip above it, or else below.
+    pub above: bool,
+    /// The joints.
+    pub joints: Vec<String>,
 }
 
 /// Where an effort is greatest.

@@ -57,7 +57,16 @@ pub(super) fn direction(
     let without_mode_problem = Vec::new();
     Ok((
         guarantee(),
-        CourseDirection { direction, rows, modes, blow_ups, peaks: Vec::new(), locked, without_mode_problem },
+        CourseDirection {
+            direction,
+            rows,
+            modes,
+            blow_ups,
+            peaks: Vec::new(),
+            tips: Vec::new(),
+            locked,
+            without_mode_problem,
+        },
     ))
 }
 

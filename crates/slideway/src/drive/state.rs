@@ -41,6 +41,7 @@ pub(super) fn direction(model: &Model, direction: Sense, work: Work<'_>) -> Resu
     let never_ends = report.margins.as_ref().filter(|margins| margins.no_solution.is_none());
     let found = DriveDirection {
         tips: report.tipping_in_the_end(),
+        tipping: report.margins.as_ref().and_then(|margins| margins.tipping.clone()),
         direction,
         status: report.status,
         complete: report.complete,

@@ -2,10 +2,10 @@
 
 use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
-    EfficiencyKind, EffortRange, PeakEffort, Sense,
+    EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{OnFace, Status, Verdict, spaced};
+use crate::report::{JointMode, OnFace, Status, Verdict, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -26,8 +26,8 @@ pub(super) fn at_rest(report: &DriveReport) -> impl Iterator<Item = String> + '_
     report.held.iter().map(|held| format!("At rest: {}", held.words))
 }
 
-/// The greatest efforts over what is varied: "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an
-/// effort that hardly varies.
+/// Where joints tip, and the greatest efforts over what is varied: "Over h from 200 to 5000 mm, shoes tips from 1500 mm on.",
+/// "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an effort that hardly varies.
 pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
     let Some(course) = &report.course else { return Vec::new() };
     let vary = &course.vary;
@@ -45,8 +45,17 @@ pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
             Sense::Reversed => format!("Backwards, over {range}, {told}"),
         })
     };
+    let tips = |way: &CourseDirection, limit: &TipsAt| {
+        let over = if way.direction == Sense::Model { "Over" } else { "Backwards, over" };
+        let verb = if limit.joints.len() == 1 { "tips" } else { "tip" };
+        let (side, on) = if limit.above { ("from", " on") } else { ("below", "") };
+        let (names, at) = (limit.joints.join(" and "), vary.shown_in.brief(limit.at));
+        format!("{over} {range}, {names} {verb} {side} {at}{on}.")
+    };
+    let tipping = course.directions.iter().flat_map(|way| way.tips.iter().map(move |limit| (way, limit)));
     let peaks = course.directions.iter().flat_map(|way| way.peaks.iter().map(move |peak| (way, peak)));
-    peaks.filter_map(|(way, peak)| one(way, peak)).collect()
+    let tipping = tipping.map(|(way, limit)| tips(way, limit));
+    tipping.chain(peaks.filter_map(|(way, peak)| one(way, peak))).collect()
 }
 
 /// The advice that makes an undetermined effort determinate.
@@ -75,6 +84,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
             .iter()
             .any(|other| other.direction == Sense::Model && other.tips == direction.tips);
     std::iter::once(needs(report, direction, is_advised))
+        .chain(tipping(direction))
         .chain(jam(report, direction, is_advised))
         .map(whole)
         .collect()
@@ -170,11 +180,14 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     needs.join(", ") + &gain
 }
 
-/// " foot lifts off.", of joints that open.
+/// " foot lifts off. shoes tips.", of joints that open or tip.
 fn lifts(only: &DriveSolution) -> String {
-    let opens = only.joints.iter().filter(|joint| joint.face == Some(OnFace::Opens));
-    let words: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
-    words.concat()
+    let word = |joint: &JointMode| match joint.face? {
+        OnFace::Opens => Some(format!(" {} lifts off.", joint.name)),
+        OnFace::Tips => Some(format!(" {} tips.", joint.name)),
+        OnFace::Closed => None,
+    };
+    only.joints.iter().filter_map(word).collect()
 }
 
 /// "push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",
@@ -231,6 +244,13 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
         _ => " More states have their own efforts.",
     };
     format!("{}; {}.{further}", parts.join(", "), range.undetermined.cause())
+}
+
+/// "shoes would tip from mu = 0.45 (1.5 times this friction)."
+fn tipping(direction: &DriveDirection) -> Option<String> {
+    let limit = direction.tipping.as_ref()?;
+    let at = times_friction(limit.factor, direction.mu.map(|mu| limit.factor * mu));
+    Some(format!("{} would tip from {at}.", limit.joints.join(" and ")))
 }
 
 /// When it would jam, or that it never does; none where that is not known.

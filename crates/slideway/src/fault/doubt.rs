@@ -29,8 +29,8 @@ pub enum Doubt {
     WideFrictionCircle { hinge: String, radius: String, body: String, other: String, distance: String },
     #[error("the gravity is {value}, more than ten times that of the Earth")]
     GreatGravity { value: String },
-    #[error("{body} lies behind the face of {joint}")]
-    BehindFace { body: String, joint: String },
+    #[error("{body} lies {}behind the face of {joint}", if *.partly { "partly " } else { "" })]
+    BehindFace { body: String, joint: String, partly: bool },
     #[error(
         "the model has neither gravity nor a load nor a drive: nothing but its own motion presses its contacts"
     )]
@@ -110,6 +110,10 @@ impl Doubt {
             }
             Self::GreatGravity { .. } => {
                 "look for a wrong or missing unit: `9.81 m/s^2` and `9810 mm/s^2` are that of the Earth".to_owned()
+            }
+            Self::BehindFace { partly: true, .. } => {
+                "look at the place of the joint: the corners of its base touch the face, and nothing of it is behind"
+                    .to_owned()
             }
             Self::BehindFace { .. } => {
                 "turn the face round, by 180 deg in `along` or with the two ends of `face` exchanged: what touches it \

@@ -5,7 +5,7 @@
 //! are known beforehand, so that elimination takes them along, row by row in one block of memory. The scales
 //! are those of an earlier state.
 
-use super::system::equilibration;
+use super::system::{equilibration, without_noise};
 use super::{Assembled, ConstraintRow, Layout, Opening, Reaction};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
@@ -94,16 +94,17 @@ impl Influences {
         let width = elimination.solution.len() / size.max(1);
         let solution =
             |place: usize| DVector::from_fn(size, |row, _| elimination.solution[row * width + place]);
+        let answer = |place: usize| without_noise(&solution(place), &elimination.columns);
         let columns = places.iter().map(|places| places.map(solution)).collect();
         let openings = width - assembled.layout.one_sided.len();
         let cut = openings - assembled.layout.cut.len();
-        let self_stresses = (cut..openings).map(solution).collect();
-        let openings = assembled.layout.openings((openings..width).map(solution).collect());
+        let self_stresses = (cut..openings).map(answer).collect();
+        let openings = assembled.layout.openings((openings..width).map(answer).collect());
         if openings.iter().any(|opening| !opening.acceleration.is_finite()) {
             return Ok(None);
         }
         let couples = (cut - assembled.couples.len()..cut).map(solution).collect();
-        let frictionless = if width == 0 { DVector::zeros(0) } else { solution(0) };
+        let frictionless = if width == 0 { DVector::zeros(0) } else { answer(0) };
         Ok(Some(Self {
             greatest_unknown: as_normal_force(&assembled.layout, &frictionless, &elimination.columns),
             frictionless,

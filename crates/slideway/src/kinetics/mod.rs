@@ -36,7 +36,7 @@ use crate::mechanism::{Contact, JointKind, Load, Mechanism, Slider};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
-use system::{Factorization, Singular, Unfactored};
+use system::{Factorization, Singular, Unfactored, without_noise};
 pub(crate) use system::{equilibration, scaled};
 
 /// Accelerations that violate the row of a cut contact by more than this part of its terms do not satisfy it.
@@ -362,7 +362,7 @@ impl KineticEquations {
 
     /// The unknowns with every component set to zero that is below the rounding errors of the solution.
     pub fn without_noise(&self, unknowns: &DVector<f64>) -> DVector<f64> {
-        self.factorization.without_noise(unknowns)
+        without_noise(unknowns, self.factorization.column_scale())
     }
 
     /// Estimate of how much rounding is amplified: ratio of the greatest to the least pivot.

@@ -116,13 +116,6 @@ impl Factorization {
         (0..count).map(solution).collect()
     }
 
-    /// A solution with every component set to zero that is below the rounding errors of the solution itself.
-    pub(super) fn without_noise(&self, solution: &DVector<f64>) -> DVector<f64> {
-        let scaled = solution.component_div(&self.column_scale);
-        let noise = NOISE * f64::EPSILON * scaled.amax();
-        DVector::from_fn(solution.len(), |i, _| if scaled[i].abs() <= noise { 0.0 } else { solution[i] })
-    }
-
     /// The powers of two by which unknowns are greater than those of the equilibrated equations.
     pub(super) fn column_scale(&self) -> &DVector<f64> {
         &self.column_scale
@@ -140,6 +133,14 @@ impl Factorization {
         }
         solution
     }
+}
+
+/// A solution with every component set to zero that is below the rounding errors of the solution itself, where unknowns are
+/// so many times greater than those of the equilibrated equations.
+pub(super) fn without_noise(solution: &DVector<f64>, column_scale: &DVector<f64>) -> DVector<f64> {
+    let scaled = solution.component_div(column_scale);
+    let noise = NOISE * f64::EPSILON * scaled.amax();
+    DVector::from_fn(solution.len(), |i, _| if scaled[i].abs() <= noise { 0.0 } else { solution[i] })
 }
 
 /// A matrix with rows and columns multiplied by powers of two.

@@ -62,7 +62,7 @@ impl RangeWithoutProblem {
 
 /// The names of a mechanism's parts, and how its guides lie.
 pub(crate) struct Naming {
-    pub(super) mechanism: Mechanism,
+    pub(crate) mechanism: Mechanism,
     configuration: Configuration,
 }
 

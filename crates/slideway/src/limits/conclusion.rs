@@ -3,11 +3,13 @@
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
-use crate::report::{HOLDS, ModeEndCause};
+use crate::report::{HOLDS, ModeEndCause, OnFace};
 use crate::units::number::counted;
 
 /// Verdict that a mechanism with drives has one solution.
 const MOVES: &str = "it moves";
+/// Verdict that it has one solution, in which a block tips over one of its corners.
+const TIPS: &str = "it tips";
 /// Verdict that there is no solution, and no guided slider tips.
 const JAMS: &str = "it jams";
 
@@ -48,8 +50,10 @@ pub(super) fn conclusion(
         joined.retain(is_seen);
     }
     let gaps = forwards.without_mode_problem.iter().map(|gap| [gap.from, gap.to]).collect::<Vec<_>>();
-    let summary = summary(&joined, &gaps, varied).map(|summary| summary + &lifting(&forwards.modes, varied));
-    let is_plain = joined.iter().all(|piece| piece.verdict == MOVES || piece.verdict == JAMS);
+    let tips = joined.iter().any(|piece| piece.verdict == TIPS);
+    let lifting = if tips { String::new() } else { lifting(&forwards.modes, varied) };
+    let summary = summary(&joined, &gaps, varied).map(|summary| summary + &lifting);
+    let is_plain = joined.iter().all(|piece| [MOVES, TIPS, JAMS].contains(&&*piece.verdict));
     let pieces = joined.into_iter().map(|piece| piece.sentence(varied, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
         let sentence = |at: &f64| {
@@ -113,6 +117,15 @@ fn summary(pieces: &[Piece], gaps: &[[f64; 2]], varied: &Varied) -> Option<Strin
     match pieces {
         pieces if !pieces.iter().all(is_certain) => None,
         [only] if only.verdict == MOVES => Some(format!("It moves {}.", all(only))),
+        [only] if only.verdict == TIPS => Some(format!("It tips {}{now}.", all(only))),
+        [one, other] if one.is_motion && other.verdict == TIPS && one.to == other.from => {
+            Some(format!("It tips from {} on{now}.", at(other)))
+        }
+        [one, tips, jams]
+            if one.is_motion && tips.verdict == TIPS && jams.verdict == JAMS && tips.to == jams.from =>
+        {
+            Some(format!("It tips from {} on, and jams from {} on{now}.", at(tips), at(jams)))
+        }
         [only] if only.verdict == JAMS => Some(format!("It jams {}{now}.", all(only))),
         [one, other] if one.to != other.from => None,
         [one, other] if one.is_motion && other.verdict == JAMS => {
@@ -186,7 +199,11 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
         let is_motion = count.solutions == 1 && !count.continuum;
         let verdict = verdict.to_owned();
         let whole = Piece { from: count.from, to: count.to, verdict, is_motion, known: count.known };
-        if is_motion { by_speed(whole, &direction.modes) } else { vec![whole] }
+        let pieces = if is_motion { by_tipping(whole, &direction.modes) } else { vec![whole] };
+        let by_speed = |piece: Piece| {
+            if piece.is_motion { by_speed(piece, &direction.modes) } else { vec![piece] }
+        };
+        pieces.into_iter().flat_map(by_speed).collect::<Vec<_>>()
     };
     direction.counts.iter().flat_map(pieces).collect()
 }
@@ -198,6 +215,32 @@ fn starts_in_words(starts: &[String]) -> String {
         [only] => only.clone(),
         several => format!("it can go on in {} ways: {}", several.len(), several.join(", or ")),
     }
+}
+
+/// A stretch with one solution, cut where a block lifts off one of its corners.
+fn by_tipping(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
+    let tips = |mode: &ModeLimits| mode.joints.iter().any(|joint| joint.face == Some(OnFace::Tips));
+    if !modes.iter().any(tips) {
+        return vec![whole];
+    }
+    let ends = |mode: &ModeLimits| [mode.from.unwrap_or(f64::NEG_INFINITY), mode.to.unwrap_or(f64::INFINITY)];
+    let mut cuts: Vec<f64> =
+        modes.iter().flat_map(ends).filter(|at| whole.from < *at && *at < whole.to).collect();
+    cuts.extend([whole.from, whole.to]);
+    cuts.sort_by(f64::total_cmp);
+    cuts.dedup();
+    let piece = |pair: &[f64]| {
+        let middle = f64::midpoint(pair[0], pair[1]);
+        let here = |mode: &&ModeLimits| {
+            let [from, to] = ends(mode);
+            !mode.preload_gap && from <= middle && middle <= to
+        };
+        let tips = modes.iter().find(here).is_some_and(tips);
+        let (verdict, is_motion) =
+            if tips { (TIPS.to_owned(), false) } else { (whole.verdict.clone(), true) };
+        Piece { from: pair[0], to: pair[1], verdict, is_motion, known: whole.known }
+    };
+    cuts.windows(2).map(piece).collect()
 }
 
 /// A stretch with one solution, cut where its only coordinate goes over from speeding up to slowing down.

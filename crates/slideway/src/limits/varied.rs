@@ -507,6 +507,17 @@ impl Varied {
         self.at(value, |stages| stages.data().growing_friction(&|_| true))
     }
 
+    /// The mechanism at a value.
+    ///
+    /// # Errors
+    /// A value that the model does not allow.
+    pub(crate) fn mechanism(&self, value: f64) -> Result<Mechanism, Faults> {
+        match &self.stages {
+            Some(stages) => Ok(stages.mechanism.clone()),
+            None => Mechanism::new(&self.model_at(value)?),
+        }
+    }
+
     /// The model in which it is varied.
     pub(crate) fn model(&self) -> &Model {
         &self.model

@@ -2,11 +2,12 @@
 
 use super::{ColourBy, effort};
 use crate::fault::{FaultKind, Faults};
+use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
 use crate::modes::existence::{ExistenceOptions, counts};
 use crate::progress::Work;
 use crate::report::{HOLDS, SpeedChange};
-use crate::solve::{AT_ONCE, Parts, StateWithinTolerances, pattern};
+use crate::solve::{AT_ONCE, Parts, StateWithinTolerances, Upright, pattern, states as sides_of};
 use serde::Serialize;
 
 /// Bounds of the classes of margins.
@@ -71,6 +72,9 @@ pub enum ClassMeaning {
     Motion {
         /// For each solution, for each coordinate that no drive moves.
         solutions: Vec<Vec<SpeedChange>>,
+        /// In how many of them a block tips over one of its corners.
+        #[serde(skip_serializing_if = "is_zero")]
+        tipping: usize,
     },
     /// Whether it can stay at rest.
     Rest {
@@ -91,6 +95,11 @@ pub enum ClassMeaning {
         /// The reason.
         reason: &'static str,
     },
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "what serde asks for")]
+fn is_zero(number: &usize) -> bool {
+    *number == 0
 }
 
 /// A class, with an order: what is found first does not matter.
@@ -190,7 +199,7 @@ impl States {
 /// The class of a point in both directions, of which the opposite one is looked at by `Jam` alone; `bounds` are those
 /// of the classes of `Effort`.
 pub(super) fn class(
-    (colour_by, bounds): (ColourBy, &effort::Bounds),
+    (colour_by, bounds, mechanism): (ColourBy, &effort::Bounds, Option<&Mechanism>),
     forwards: Result<&Answer, &'static str>,
     opposite: Option<Result<&Answer, &'static str>>,
 ) -> ClassMeaning {
@@ -232,11 +241,15 @@ pub(super) fn class(
     if !moves(states) {
         return if states.tips { ClassMeaning::Tips } else { ClassMeaning::Locked };
     }
+    let tips = |pattern: &&String| {
+        mechanism.is_some_and(|mechanism| !mechanism.tipped(&sides_of(pattern)).is_empty())
+    };
+    let tipping = states.solutions.iter().filter(tips).count();
     let number =
         ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
     match (colour_by, answer) {
         (ColourBy::Margin, Answer::Problem(point)) if states.solutions.len() == 1 => {
-            margin(&point.parts).unwrap_or(ClassMeaning::TooLarge)
+            margin(&point.parts, mechanism).unwrap_or(ClassMeaning::TooLarge)
         }
         (ColourBy::Margin, Answer::States(_)) if states.solutions.len() == 1 => {
             states.margin.clone().unwrap_or(ClassMeaning::NotSolved { reason: "margin not decided" })
@@ -244,7 +257,7 @@ pub(super) fn class(
         (ColourBy::Motion, Answer::Problem(point))
             if !(point.free.is_empty() || states.solutions.is_empty()) =>
         {
-            motion(speeds(point, states))
+            motion(speeds(point, states), tipping)
         }
         // What tips or lifts off is not told by coordinates that stand still.
         (ColourBy::Modes | ColourBy::Motion, _) if let Some(starts) = &states.starts => {
@@ -253,8 +266,9 @@ pub(super) fn class(
             ClassMeaning::Starts { starts }
         }
         (ColourBy::Motion, Answer::States(_)) if states.changes.iter().any(|changes| !changes.is_empty()) => {
-            motion(states.changes.clone())
+            motion(states.changes.clone(), tipping)
         }
+        (ColourBy::Motion, _) if tipping > 0 => motion(vec![Vec::new(); states.solutions.len()], tipping),
         (ColourBy::Effort, answer) => {
             answer.least_effort().map_or(number, |effort| effort::class(effort, bounds))
         }
@@ -272,9 +286,9 @@ pub(super) fn class(
 }
 
 /// Builds the class of these changes of the speeds, with the solutions sorted: their order does not count.
-fn motion(mut solutions: Vec<Vec<SpeedChange>>) -> ClassMeaning {
+fn motion(mut solutions: Vec<Vec<SpeedChange>>, tipping: usize) -> ClassMeaning {
     solutions.sort_unstable();
-    ClassMeaning::Motion { solutions }
+    ClassMeaning::Motion { solutions, tipping }
 }
 
 /// Returns the changes of the speeds in each solution.
@@ -337,8 +351,9 @@ fn states(parts: &Parts, between_faces: Vec<String>, work: Work<'_>) -> Option<S
     Some(states)
 }
 
-/// The margin of a point with one solution, as a range of factors; none if there are too many patterns.
-fn margin(parts: &Parts) -> Option<ClassMeaning> {
+/// The margin of a point with one solution, as a range of factors; none if there are too many patterns. A block that tips
+/// ends it, too.
+fn margin(parts: &Parts, mechanism: Option<&Mechanism>) -> Option<ClassMeaning> {
     // Changes beyond the last finite bound are of one class.
     let range = [1.0, MARGINS[MARGINS.len() - 2]];
     let line = parts.without_pressure_friction().line_to(parts);
@@ -346,7 +361,10 @@ fn margin(parts: &Parts) -> Option<ClassMeaning> {
     let existence = line.existence(&options).ok()?;
     let counts = counts(&line, &existence, range);
     let changes = counts.iter().find(|count| count.to > 1.0 + AT_ONCE && count.solutions != 1);
-    let factor = changes.map_or(f64::INFINITY, |count| count.from.max(1.0));
+    let upright = mechanism.and_then(|mechanism| Upright::of(&existence, mechanism));
+    let tips =
+        upright.filter(|upright| !upright.tips.is_empty()).map_or(f64::INFINITY, |upright| upright.until);
+    let factor = changes.map_or(f64::INFINITY, |count| count.from.max(1.0)).min(tips);
     Some(margin_up_to(MARGINS.iter().position(|&bound| factor < bound).unwrap_or(MARGINS.len() - 1)))
 }
 
@@ -411,7 +429,9 @@ mod tests {
                     continue;
                 }
                 let factor = counts.iter().find(|count| count.solutions != 1).map(|count| count.from);
-                let Some(ClassMeaning::Margin { from, to }) = margin(&parts) else { panic!("a margin") };
+                let Some(ClassMeaning::Margin { from, to }) = margin(&parts, None) else {
+                    panic!("a margin")
+                };
                 let factor = factor.unwrap_or(f64::INFINITY);
                 finite += usize::from(factor < 5.0);
                 let is_within = from <= factor && factor < to.unwrap_or(f64::INFINITY);
@@ -446,7 +466,9 @@ mod tests {
             let settings = Settings::default().parameter("mu", mu.to_string());
             let stages = Stages::new(&model.with(&settings).expect("sound")).expect("solvable");
             let parts = stages.parts().expect("finite numbers");
-            let Some(ClassMeaning::Margin { from, to }) = margin(&parts) else { panic!("a margin at {mu}") };
+            let Some(ClassMeaning::Margin { from, to }) = margin(&parts, None) else {
+                panic!("a margin at {mu}")
+            };
             let factor = 0.8 / mu;
             assert!(from <= factor && factor < to.unwrap_or(f64::INFINITY), "{mu}: {from} {to:?}");
         }

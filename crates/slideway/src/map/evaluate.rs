@@ -7,6 +7,7 @@ use crate::expression::Degree;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::kinetics::Accuracy;
 use crate::limits::mechanism_with;
+use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Progress, Work};
 use crate::solve::{LastSolution, Parts, SolveOptions, Stages, Trail, states_between_faces};
@@ -31,6 +32,8 @@ pub(super) struct Evaluator<'a> {
     /// The bounds of the classes of efforts.
     bounds: effort::Bounds,
     model: &'a Model,
+    /// If its own values are allowed.
+    mechanism: Option<Mechanism>,
     /// Where mode problems come from; none where statics is asked.
     forwards: Option<Source>,
     /// Motion the other way, for `Jam`.
@@ -61,8 +64,9 @@ impl<'a> Evaluator<'a> {
         let source = |model: Model| Source::new(model, axes, colour_by).map(Some);
         let forwards = if colour_by == ColourBy::Hold { None } else { source(model.clone())? };
         let opposite = if colour_by == ColourBy::Jam { source(model.reversed())? } else { None };
+        let mechanism = Mechanism::new(model).ok();
         let mut evaluator =
-            Self { axes, colour_by, bounds: effort::Bounds::default(), model, forwards, opposite };
+            Self { axes, colour_by, bounds: effort::Bounds::default(), model, mechanism, forwards, opposite };
         if colour_by == ColourBy::Effort {
             evaluator.bounds = evaluator.bounds_of_efforts(work);
         }
@@ -135,7 +139,7 @@ impl<'a> Evaluator<'a> {
         let forwards = at(source, there);
         let opposite = self.opposite.as_ref().map(|opposite| at(opposite, back));
         ClassKey(class(
-            (self.colour_by, &self.bounds),
+            (self.colour_by, &self.bounds, self.mechanism.as_ref()),
             forwards.as_ref().map_err(|reason| *reason),
             opposite.as_ref().map(|other| other.as_ref().map_err(|reason| *reason)),
         ))
@@ -328,7 +332,7 @@ mod tests {
                         let [forwards, opposite] =
                             [&forwards, &opposite].map(|answer| answer.as_ref().map_err(|reason| *reason));
                         let expected =
-                            class((colour_by, &effort::Bounds::default()), forwards, Some(opposite));
+                            class((colour_by, &effort::Bounds::default(), None), forwards, Some(opposite));
                         assert_eq!(found, ClassKey(expected), "{name} {colour_by:?} at {values:?}");
                     }
                 }

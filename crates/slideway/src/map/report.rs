@@ -296,7 +296,7 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
             let [there, back] = [tips_as_in_model, tips_opposite].map(|tips| without(*tips));
             format!("{there} as in the model, {back} in the opposite direction")
         }
-        ClassMeaning::Motion { solutions } => {
+        ClassMeaning::Motion { solutions, tipping } => {
             let of_solution = |changes: &Vec<SpeedChange>| {
                 changes.iter().map(|change| change.in_words()).collect::<Vec<_>>().join(", ")
             };
@@ -306,7 +306,14 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
             } else {
                 format!("{} solutions", counted(each.len()))
             };
-            format!("{number}: {}", each.join(" | "))
+            let tips = match (*tipping, each.len()) {
+                (0, _) => String::new(),
+                (1, 1) => "it tips".to_owned(),
+                (tipping, _) => format!("it tips in {tipping} of them"),
+            };
+            let changes = if each.iter().all(String::is_empty) { String::new() } else { each.join(" | ") };
+            let parts: Vec<String> = [changes, tips].into_iter().filter(|part| !part.is_empty()).collect();
+            format!("{number}: {}", parts.join("; "))
         }
         ClassMeaning::Rest { holds: Some(true), may_slip: true } => {
             "holds only if something has wedged it: do not rely on it".to_owned()

@@ -170,15 +170,28 @@ impl Mechanism {
         slider.rim() + self.all_of(slider).next().map_or(0.0, |contact| contact.gap)
     }
 
-    /// The bodies that lie behind a face that they touch, each with the joint of it: all that is drawn of them but what touches.
-    pub(crate) fn behind_faces(&self) -> Vec<(JointId, BodyId)> {
+    /// The bodies that lie behind a face that they touch, each with the joint of it, and whether only a part does: all that is drawn
+    /// of them but what touches, or a corner between the contacts of a base, where the face is for certain.
+    pub(crate) fn behind_faces(&self) -> Vec<(JointId, BodyId, bool)> {
         let near = self.same_place();
         let behind = |(joint, face): (JointId, &Slider)| {
             let body = face.block.body().filter(|_| self.may_lift_off(face))?;
-            let gaps: Vec<f64> =
-                self.extremes(body).into_iter().map(|extreme| self.gap_in_drawing(face, extreme)).collect();
-            let is_behind = gaps.iter().any(|gap| *gap < -near) && gaps.iter().all(|gap| *gap <= near);
-            is_behind.then_some((joint, body))
+            let extremes = self.extremes(body);
+            let gap = |extreme: &(Vector2<f64>, f64)| self.gap_in_drawing(face, *extreme);
+            let offsets = || self.all_of(face).map(|contact| contact.offset);
+            let [least, greatest] = [offsets().fold(0.0, f64::min), offsets().fold(0.0, f64::max)];
+            let is_over_base = |(place, _): &(Vector2<f64>, f64)| {
+                let along = face.tangent.dot(&(place - face.at));
+                greatest > least && least - near <= along && along <= greatest + near && face.round.is_none()
+            };
+            let is_behind = |extreme: &&(Vector2<f64>, f64)| gap(extreme) < -near;
+            let partly = extremes.iter().any(|extreme| gap(extreme) > near);
+            let warns = if partly {
+                extremes.iter().filter(is_behind).any(is_over_base)
+            } else {
+                extremes.iter().any(|extreme| is_behind(&extreme))
+            };
+            warns.then_some((joint, body, partly))
         };
         self.sliders().filter_map(behind).collect()
     }

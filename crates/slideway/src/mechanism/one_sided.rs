@@ -55,6 +55,38 @@ impl<T: Real> Mechanism<T> {
         self.contacts[contact].opens.then(|| states[contact] != ContactState::Negative)
     }
 
+    /// The joints that tip in a state of the mode problem: some of their corners have left their face, others stay there.
+    pub(crate) fn tipped(&self, states: &[ContactState]) -> Vec<String> {
+        self.keeping_a_corner(states, |_| false)
+    }
+
+    /// The joints that tip once these contacts lift off from a state.
+    pub(crate) fn tipped_by(&self, states: &[ContactState], lifting: &[usize]) -> Vec<String> {
+        let keep = self.keeping_a_corner(states, |k| lifting.contains(&k));
+        let tips_already = self.tipped(states);
+        keep.into_iter().filter(|joint| !tips_already.contains(joint)).collect()
+    }
+
+    /// The joints some of whose corners are open in a state, or these, while others are closed.
+    fn keeping_a_corner(&self, states: &[ContactState], opens: impl Fn(usize) -> bool) -> Vec<String> {
+        let tips = |(joint, slider): (JointId, &Slider<T>)| {
+            let corners = slider.contacts.iter().map(|contact| contact.index());
+            let is_closed = |k: usize| Some(self.is_closed(states, k)? && !opens(k));
+            let closed: Vec<bool> = corners.filter_map(is_closed).collect();
+            let tips = closed.contains(&true) && closed.contains(&false);
+            tips.then(|| self.joints[joint.index()].name.to_string())
+        };
+        self.sliders().filter_map(tips).collect()
+    }
+
+    /// Returns whether something may tip: a guided slider, or a block that may lift off one of its corners.
+    pub(crate) fn may_tip(&self) -> bool {
+        self.sliders().any(|(_, slider)| {
+            let opens = slider.contacts.iter().filter(|contact| self.contacts[contact.index()].opens);
+            slider.is_guided() || opens.count() > 1
+        })
+    }
+
     /// Takes `nothing` for the forces of the contacts that lift off.
     pub(crate) fn put_out_of_open<V: Copy>(&self, states: &[ContactState], forces: &mut [V], nothing: V) {
         self.opening(states).for_each(|k| forces[k] = nothing);

@@ -88,7 +88,7 @@ impl SolveReport {
     fn start_in_words(&self) -> Option<String> {
         let starts = self.starts()?;
         let unique = if self.every_load_has_one_state == Some(true) {
-            " Every load has exactly one state."
+            " Under any load there is one way only."
         } else {
             ""
         };
@@ -106,7 +106,7 @@ impl SolveReport {
                     more => format!(" {more} more states are determined."),
                 };
                 let holds = if self.rests() { "It holds. " } else { "" };
-                format!("{holds}The contacts at rest leave their forces open: `hold` has their ranges.{also}")
+                format!("{holds}The forces at rest are not determined: `hold` shows their ranges.{also}")
             }
         })
     }
@@ -120,9 +120,7 @@ impl SolveReport {
             format!("{} ({energy} of kinetic energy is {what})", joints.collect::<Vec<_>>().join("; "))
         };
         Some(match self.jam_impulses.as_deref()? {
-            [] if self.model.drives > 0 => {
-                "No impulse without a collision ends the jam either: the drives stall.".to_owned()
-            }
+            [] if self.model.drives > 0 => "The drives stall.".to_owned(),
             [] => return None,
             [only] => format!("Velocities jump without a collision. Afterwards {}.", after(only)),
             several => {
@@ -150,26 +148,30 @@ impl SolveReport {
             return below.into_iter().chain(self.impulse_in_words()).collect();
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
-        let mut sentences = Vec::new();
+        let tips = margins.tipping.iter();
+        let mut sentences: Vec<String> = tips
+            .map(|tips| format!("{} would tip from {}.", tips.joints.join(" and "), at(tips.factor)))
+            .collect();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
             sentences.push(if self.status == Status::One {
                 format!("From {} it has several ways to go on.", at(changes))
             } else {
-                format!("The number of solutions changes from {}.", at(changes))
+                format!("From {} on it has more or fewer ways to go on.", at(changes))
             });
         }
         let any_load = self.any_load_in_words(margins);
         match jams {
             Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
                 let safe = "Below that no load jams it while it moves.".to_owned();
-                return vec![self.end_in_words(margins, &at(jams)), safe];
+                sentences.extend([self.end_in_words(margins, &at(jams)), safe]);
+                return sentences;
             }
             Some(jams) => sentences.push(self.end_in_words(margins, &at(jams))),
             None if margins.another_count.is_none() && self.has_friction() => {
                 let with = if margins.uniqueness.is_some() { " under this load" } else { "" };
                 sentences.push(if self.status == Status::Several {
-                    "However much all friction grows, it has a solution.".to_owned()
+                    "No friction, however great, jams it.".to_owned()
                 } else {
                     format!("While it moves, more friction would not jam it{with}.")
                 });
@@ -230,7 +232,11 @@ impl SolveReport {
         let lifts = lifting_in_words(solution);
         if !solution.drives.is_empty() {
             let needs: Vec<String> = self.needs(solution);
-            return format!("It moves: {}{lifts}", needs.join(", "));
+            return format!(
+                "It moves: {}{}",
+                needs.join(", "),
+                lifts.replacen(" and tips:", ". It tips:", 1)
+            );
         }
         let changes: Vec<String> = self.changes(solution);
         match changes.as_slice() {

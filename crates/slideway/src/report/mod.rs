@@ -477,6 +477,9 @@ pub struct Margins {
     /// moves on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tips: Vec<String>,
+    /// From where on a block that may lift off tips over one of its corners, while there is a solution; absent if none does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tipping: Option<TippingLimit>,
     /// From this greater factor on there are solutions again; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
@@ -497,6 +500,16 @@ pub struct Margins {
     /// The contact whose friction alone changes the number of solutions first; absent if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub critical_contact: Option<CriticalContact>,
+}
+
+/// The friction from which on blocks that may lift off tip.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct TippingLimit {
+    /// As a factor of that of the model.
+    pub factor: f64,
+    /// The joints of these blocks.
+    pub joints: Vec<String>,
 }
 
 /// The friction below which a mechanism that is locked would move.
@@ -696,7 +709,7 @@ impl JointMode {
     /// Where it touches: "on its left corner", "closed".
     pub(crate) fn place(&self) -> &str {
         match self.face {
-            Some(OnFace::Opens) => "opens",
+            Some(OnFace::Opens) => "lifts off",
             Some(OnFace::Closed) if self.place.is_empty() => "closed",
             _ => &self.place,
         }

@@ -240,7 +240,7 @@ impl Text<'_> {
         let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
             if let Some(are) = about_to_change {
-                self.line(&format!("  At a boundary: {are} about to change side."));
+                self.line(&format!("  At a boundary: {are} not pressed by anything."));
             }
             if let Some(are) = guided_in_gap {
                 self.line(&format!("  At a boundary: only while {are} exactly without normal force."));

@@ -25,6 +25,10 @@ pub(super) struct Sought<'q> {
     pub(super) present: Option<Margin>,
     /// The joints that tip in the model, if there is no solution for that reason.
     pub(super) tipping: Option<Tipping>,
+    /// The joints that tip as the friction of the model grows to the margin, or as it is.
+    pub(super) tips: Vec<String>,
+    /// Whether anything may tip.
+    pub(super) may_tip: bool,
     /// The margin in the model while something has wedged it.
     pub(super) wedged: Option<f64>,
     pub(super) found: SizesFound,
@@ -36,7 +40,7 @@ pub(super) fn report(
     options: &SizeOptions,
     sought: &Sought<'_>,
 ) -> SizeReport {
-    let Sought { question, range, steps, value, present, tipping, wedged, found } = sought;
+    let Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, found } = sought;
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
@@ -68,6 +72,8 @@ pub(super) fn report(
         both_directions: options.both_directions,
         present: sample(&Tried { at: *value, margin: *present }, told),
         tipping: tipping.clone(),
+        tips: tips.clone(),
+        may_tip: *may_tip,
         wedged: *wedged,
         met: found.met.iter().map(|ends| interval(ends, same_ends, told)).collect(),
         without_position: found.gaps.iter().map(|one| gap(one, same_ends)).collect(),

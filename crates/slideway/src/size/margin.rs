@@ -8,15 +8,13 @@ use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooM
 use crate::problem::TurningHinge;
 use crate::progress::Work;
 use crate::report::{Status, Tipping};
-use crate::solve::{FALLING, GROWING, Stages, locking_factor};
+use crate::solve::{FALLING, GROWING, Stages, Upright, locking_factor, upright};
 use crate::standstill::self_locking_factor;
 
 /// The most patterns for which a margin is computed.
 const PATTERNS: u64 = 1 << 12;
 /// Factors between those two at which states between faces are sought: a heuristic.
 const TRIED: u32 = 8;
-/// Gaps between modes that are narrower than this, relative to where they are, come from rounding.
-const ROUNDING: f64 = 1e-10;
 /// Margins closer than this, relative to the greater one, are the same.
 pub(super) const SAME: f64 = 1e-9;
 
@@ -123,6 +121,16 @@ impl MarginQuestion<'_> {
         Tipping::of(without.map(|report| report.tipping().map_or_else(Vec::new, |tipping| tipping.joints)))
     }
 
+    /// What tips in the model as its friction grows to the margin against locking, or as it is.
+    pub(super) fn tips(&self, value: f64, work: Work<'_>) -> Vec<String> {
+        let is_asked =
+            *self.against == Against::Locking && self.varied.rough_circles([value, value]).is_empty();
+        let directions = std::iter::once(self.varied).chain(self.reversed).filter(|_| is_asked);
+        let found = directions.filter_map(|varied| locking_margin(varied, value, work).ok());
+        let nearest = found.min_by(|(one, _), (other, _)| other.demand(1.0).total_cmp(&one.demand(1.0)));
+        nearest.map_or_else(Vec::new, |(_, tips)| tips)
+    }
+
     /// The smaller margin of both directions, if both count.
     fn both(&self, margin: impl Fn(&Varied) -> Result<Margin, Faults>) -> Result<Margin, Faults> {
         let forwards = margin(self.varied)?;
@@ -169,7 +177,7 @@ fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin
         let factor = varied.with_hinges(value, &circles, factor)?.ok_or_else(not_computed)?;
         return Ok(if factor.is_infinite() { Margin::Infinite } else { Margin::Finite(factor) });
     }
-    let margin = locking_margin(&varied.growing_friction(value)?, work)?;
+    let (margin, _) = locking_margin(varied, value, work)?;
     let is_between = |rougher: f64| !varied.states_between_faces(value, rougher, None, work).is_empty();
     // Where it is locked, from the friction to which it would have to fall.
     let from = margin.factor().unwrap_or(1.0).min(1.0);
@@ -181,15 +189,23 @@ fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin
     Ok(margin)
 }
 
-/// The factor by which friction may grow before there is neither a solution nor a preload-gap state; where
-/// there is none as it is, the factor to which it has to fall.
-fn locking_margin(line: &ModeProblemLine, work: Work<'_>) -> Result<Margin, Faults> {
-    Ok(match covered(&existence(line, GROWING, work)?) {
-        Some(end) if end.is_infinite() => Margin::Infinite,
-        Some(end) => Margin::Finite(end),
+/// The factor by which friction may grow before something tips, or there is neither a solution nor a preload-gap state;
+/// where one of both is so as it is, the factor to which it has to fall. And what tips at that factor, or as it is.
+fn locking_margin(varied: &Varied, value: f64, work: Work<'_>) -> Result<(Margin, Vec<String>), Faults> {
+    let line = varied.growing_friction(value)?;
+    let mechanism = varied.mechanism(value)?;
+    let growing = existence(&line, GROWING, work)?;
+    Ok(match Upright::of(&growing, &mechanism) {
+        Some(Upright { until, tips }) if until.is_infinite() => (Margin::Infinite, tips),
+        Some(Upright { until, tips }) => (Margin::Finite(until), tips),
         None => {
-            let ends = existence(line, FALLING, work)?.modes.into_iter().map(|mode| mode.to.at);
-            Margin::Finite(ends.fold(0.0, f64::max))
+            let falling = existence(&line, FALLING, work)?;
+            let ends = upright(&falling, &mechanism).map(|mode| mode.to.at);
+            let now = growing.modes.iter().filter(|mode| mode.from.at <= GROWING[0]);
+            let mut tips: Vec<String> = now.flat_map(|mode| mechanism.tipped(&mode.pattern)).collect();
+            tips.sort_unstable();
+            tips.dedup();
+            (Margin::Finite(ends.fold(0.0, f64::max)), tips)
         }
     })
 }
@@ -205,15 +221,4 @@ fn existence(line: &ModeProblemLine, range: [f64; 2], work: Work<'_>) -> Result<
         0 => Ok(existence),
         modes => Err(Fault::general(FaultKind::LimitsNotComputed { modes }).into()),
     }
-}
-
-/// Up to where some mode exists without interruption, from the friction of the model on; nothing if none
-/// exists there.
-fn covered(existence: &Existence) -> Option<f64> {
-    let mut modes: Vec<[f64; 2]> = existence.modes.iter().map(|mode| [mode.from.at, mode.to.at]).collect();
-    modes.sort_by(|one, other| one[0].total_cmp(&other[0]));
-    modes.into_iter().fold(None, |end: Option<f64>, [from, to]| {
-        let reached = end.unwrap_or(GROWING[0]);
-        if from <= reached * (1.0 + ROUNDING) { Some(reached.max(to)) } else { end }
-    })
 }

@@ -1,8 +1,8 @@
 //! Design: the value of a parameter at which a wanted margin against locking is just met.
 //!
 //! The margin against locking is the factor by which all kinetic coefficients of friction may grow before
-//! there is no solution (`margins.no_solution` of [`mod@crate::solve`]). Where there is none already, it is
-//! the factor to which they have to fall, below 1. At one value it is known in closed form
+//! there is no solution (`margins.no_solution` of [`mod@crate::solve`]), or something tips (`margins.tipping`). Where one of
+//! both is so already, it is the factor to which they have to fall, below 1. At one value it is known in closed form
 //! ([`crate::modes::existence`]); over a parameter it is bracketed. The margin against self-locking is the
 //! factor by which all static coefficients may grow before a load is held however great it is; the margin of
 //! holding is the inverse of that, or of the factor from which on all loads are held as they are: by how much friction may be
@@ -58,7 +58,7 @@ const STEPS_AT_REST: usize = 100;
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Against {
-    /// Locking in motion: there is no solution.
+    /// Locking in motion: there is no solution, or something tips.
     Locking,
     /// Self-locking at rest: this load, or effort of a drive, is held however great it is.
     SelfLocking {
@@ -265,14 +265,17 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let steps = if at_rest { STEPS_AT_REST } else { STEPS };
     let wanted = if options.against.is_limit() { 1.0 } else { options.margin };
     let tipping = question.tipping(value, work);
+    let tips = question.tips(value, work);
     let wedged = present.and_then(|by_itself| question.wedged(value, by_itself, work));
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
     if found.places.iter().all(|place| place.margin.is_none()) {
         // Nowhere an answer: the faults in the middle say why.
         question.margin(f64::midpoint(range[0], range[1]), work)?;
     }
-    let state = held_state(&Mechanism::new(model)?, &varied, range);
-    let sought = answer::Sought { question, range, steps, value, present, tipping, wedged, found };
+    let mechanism = Mechanism::new(model)?;
+    let (state, may_tip) = (held_state(&mechanism, &varied, range), mechanism.may_tip());
+    let sought =
+        answer::Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, found };
     finite(answer::report(model, state, options, &sought))
 }
 

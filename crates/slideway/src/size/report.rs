@@ -13,7 +13,7 @@ pub const SCHEMA: &str = "slideway/size/1";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MarginKind {
-    /// The factor by which kinetic friction may grow before there is no solution.
+    /// The factor by which kinetic friction may grow before there is no solution, or something tips.
     Locking,
     /// The factor by which static friction may grow before a load is held however great it is.
     SelfLocking,
@@ -98,6 +98,12 @@ pub struct SizeReport {
     /// Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<Tipping>,
+    /// Against locking: what tips in the model at its margin, or as it is; absent if nothing does.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub tips: Vec<String>,
+    /// Whether anything may tip.
+    #[serde(skip)]
+    pub(super) may_tip: bool,
     /// The margin of holding in the model while something has wedged it, if that is greater than the one by itself, which is
     /// wanted; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -143,7 +143,8 @@ impl Words<'_> {
                 format!("the {what} is {}; {kept}", report.limit_shown_in.show(level))
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
-                MarginKind::Locking => "it is on the verge of jamming".to_owned(),
+                MarginKind::Locking if report.tips.is_empty() => "it is on the verge of jamming".to_owned(),
+                MarginKind::Locking => format!("{} on the verge of tipping", are(&report.tips)),
                 _ => format!("it just holds{}", every_load(report)),
             },
             (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
@@ -171,9 +172,16 @@ impl Words<'_> {
         let enough = if margin >= report.margin { "which is enough" } else { "which is too little" };
         let factor = brief(margin);
         match (report.against, margin >= 1.0) {
-            (MarginKind::Locking, true) => format!("its safety factor is {factor}, {enough}"),
+            (MarginKind::Locking, true) if report.tips.is_empty() => {
+                format!("its safety factor is {factor}, {enough}")
+            }
+            (MarginKind::Locking, true) => {
+                let tips = tip(&report.tips);
+                format!("its safety factor is {factor} (beyond, {tips}), {enough}")
+            }
             (MarginKind::Locking, false) => {
-                let now = without_solution(report.tipping.as_ref());
+                let jams = || without_solution(report.tipping.as_ref());
+                let now = if report.tips.is_empty() { jams() } else { tip(&report.tips) };
                 format!("{now}; friction would have to fall to {factor} of its value")
             }
             (MarginKind::SelfLocking, true) => {
@@ -205,16 +213,28 @@ impl Words<'_> {
         let never_told =
             least == f64::INFINITY && greatest == f64::INFINITY && !self.report.against.is_limit();
         if is_same && greatest == 0.0 && self.report.against == MarginKind::Locking {
-            return Some("No friction, however great, jams it anywhere in this range.".to_owned());
+            let tips = if self.report.may_tip { " or tips" } else { "" };
+            return Some(format!("No friction, however great, jams{tips} it anywhere in this range."));
         }
         (is_same || never_told)
             .then(|| format!("The {} is the same throughout this range.", subject(self.report)))
     }
 }
 
+/// "shoes tips", "left and right tip"
+fn tip(joints: &[String]) -> String {
+    format!("{} {}", joints.join(" and "), if joints.len() == 1 { "tips" } else { "tip" })
+}
+
+/// "shoes is", "left and right are"
+fn are(joints: &[String]) -> String {
+    format!("{} {}", joints.join(" and "), if joints.len() == 1 { "is" } else { "are" })
+}
+
 fn never(report: &SizeReport) -> String {
     let load = report.load.as_deref().unwrap_or_default();
     match report.against {
+        MarginKind::Locking if report.may_tip => "more friction would neither jam nor tip it".to_owned(),
         MarginKind::Locking => "more friction would not jam it".to_owned(),
         MarginKind::SelfLocking => format!("no static friction, however great, holds every `{load}`"),
         MarginKind::Hold => format!("it holds{} without friction", every_load(report)),
@@ -251,10 +271,11 @@ fn wish(report: &SizeReport) -> String {
     let margin = precise(report.margin);
     let load = report.load.as_deref().unwrap_or_default();
     match report.against {
-        MarginKind::Locking if report.both_directions => {
-            format!("For a safety factor of {margin} against jamming in both directions")
+        MarginKind::Locking => {
+            let tipping = if report.may_tip { " and tipping" } else { "" };
+            let both = if report.both_directions { " in both directions" } else { "" };
+            format!("For a safety factor of {margin} against jamming{tipping}{both}")
         }
-        MarginKind::Locking => format!("For a safety factor of {margin} against jamming"),
         MarginKind::SelfLocking => {
             format!("So that `{load}` does not lock it, with a safety factor of {margin}")
         }

@@ -146,7 +146,7 @@ impl Answer<'_> {
     pub(super) fn examine(&self, solutions: &mut [Solution]) -> Result<(), Faults> {
         for solution in solutions.iter_mut() {
             solution.attainability = not_computed(if solution.floating.is_empty() {
-                "a contact is about to change side"
+                "nothing presses a contact"
             } else {
                 "the block floats within its play"
             });

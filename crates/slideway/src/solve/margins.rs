@@ -3,6 +3,7 @@
 use super::mode_problem::ProblemData;
 use super::stages::Stages;
 use super::state::{pattern, signs};
+use super::upright::Upright;
 use crate::enclosure::EnclosedModeProblem;
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
@@ -14,7 +15,9 @@ use crate::modes::existence::{
 };
 use crate::modes::{ContactState, InfluenceCoefficients, ModeProblem};
 use crate::problem::rougher;
-use crate::report::{self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, Unlocking};
+use crate::report::{
+    self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, TippingLimit, Unlocking,
+};
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
@@ -76,6 +79,7 @@ pub(super) fn add(
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         tips: all.tips(mechanism),
+        tipping: all.tipping(mechanism),
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
         moves_below: falling.as_ref().and_then(|falling| falling.moves_below(mechanism)),
@@ -232,6 +236,13 @@ impl Growth {
             _ => None,
         });
         mechanism.guided_sliders(&bounds.collect::<Vec<_>>().concat())
+    }
+
+    /// The blocks that lift off a corner and tip before that, and from where on.
+    fn tipping(&self, mechanism: &Mechanism) -> Option<TippingLimit> {
+        let Upright { until, tips } = Upright::of(&self.existence, mechanism)?;
+        let is_before = self.no_solution().is_none_or(|jams| !is_same_end(jams, until));
+        (is_before && !tips.is_empty()).then_some(TippingLimit { factor: until, joints: tips })
     }
 
     /// The factor beyond that from which on there are solutions or gap states again.

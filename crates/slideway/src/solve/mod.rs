@@ -41,6 +41,7 @@ mod state;
 mod tolerant;
 mod trail;
 mod uncertainty;
+mod upright;
 mod words;
 
 pub(crate) use answer::joint_modes;
@@ -65,6 +66,7 @@ pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::{certain_counts, counted};
+pub(crate) use upright::{Upright, tips_at_end, upright};
 pub(crate) use words::joint_mode;
 pub use words::mode_in_words;
 

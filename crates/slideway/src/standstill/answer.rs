@@ -3,8 +3,8 @@
 use super::TOLERANCE;
 use super::ranges::{greatest, words};
 use super::report::{
-    CoordinateRange, FrictionNeeded, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Release,
-    Threshold, Wedging,
+    BeyondHeld, CoordinateRange, FrictionNeeded, HoldReport, HoldVerdict, JointRelease, LoadReport, Range,
+    Release, Threshold, Wedging,
 };
 use crate::units::number::brief;
 
@@ -34,6 +34,7 @@ pub(super) fn answer(report: &HoldReport) -> String {
     }
     if !is_all {
         sentences.push(held(report, load));
+        sentences.extend(beyond(report, load));
     }
     sentences.push(locks(load, is_all));
     sentences.join(" ")
@@ -133,10 +134,9 @@ fn moves(report: &HoldReport) -> String {
         (least == greatest).then(|| format!(" ({}: {least})", only.name))
     };
     match report.releases.as_slice() {
-        [only] if !only.gaps.is_empty() => format!("It does not hold: {}.", lifts(only)),
+        [only] if !only.gaps.is_empty() => format!("It does not hold: {}.", begins(only)),
         [only] => {
-            let starts = if only.joints.iter().any(|joint| joint.slip != 0) { "slide" } else { "move" };
-            format!("It does not hold: it starts to {starts}{}.", acceleration(only).unwrap_or_default())
+            format!("It does not hold: {}{}.", begins(only), acceleration(only).unwrap_or_default())
         }
         several => {
             let slides = several.iter().all(|release| release.gaps.is_empty());
@@ -146,8 +146,12 @@ fn moves(report: &HoldReport) -> String {
     }
 }
 
-/// "it tips over base.rear and slides", "head lifts off"
-fn lifts(release: &Release) -> String {
+/// "it tips over base.rear and slides", "head lifts off", "it starts to slide"
+pub(super) fn begins(release: &Release) -> String {
+    if release.gaps.is_empty() {
+        let slides = release.joints.iter().any(|joint| joint.slip != 0);
+        return format!("it starts to {}", if slides { "slide" } else { "move" });
+    }
     let words = |joint: &JointRelease| match joint.words.strip_prefix("tips over ") {
         Some(over) => {
             let corner = over.split_once(", ").map_or(over, |(corner, _)| corner);
@@ -227,6 +231,24 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
             format!("It {holds} {}.", all.join(", or "))
         }
     }
+}
+
+/// "Beyond, it tips over shoes.front.", "Above 88.29 N it tips over shoes.front, below -88.29 N it starts to slide."
+fn beyond(report: &HoldReport, load: &LoadReport) -> Option<String> {
+    let first = load.beyond.first()?;
+    let ends = load.held.iter().flat_map(|range| [range.least, range.greatest]).flatten().count();
+    if ends == load.beyond.len() && load.beyond.iter().all(|end| end.words == first.words) {
+        return Some(format!("Beyond, {}.", first.words));
+    }
+    let unit = report.units.of(load.unit);
+    let one = |end: &BeyondHeld| {
+        let side = if end.above { "above" } else { "below" };
+        let at = if load.unit.is_empty() { format!("{} times", brief(end.at)) } else { unit.brief(end.at) };
+        format!("{side} {at} {}", end.words)
+    };
+    let mut told = load.beyond.iter().map(one).collect::<Vec<_>>().join(", ");
+    told[..1].make_ascii_uppercase();
+    Some(told + ".")
 }
 
 /// True if only none of the load is held.

@@ -59,9 +59,9 @@ mod turning;
 mod words;
 
 pub use report::{
-    AtRest, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange, FrictionNeeded,
-    GapRange, HingeRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range, Reactions, Release,
-    SCHEMA, Threshold, Wedging,
+    AtRest, BeyondHeld, Coefficients, ContactRange, CoordinateRange, CoordinateValue, DriveRange,
+    FrictionNeeded, GapRange, HingeRange, HoldReport, HoldVerdict, JointRelease, LoadReport, Range,
+    Reactions, Release, SCHEMA, Threshold, Wedging,
 };
 
 use crate::configuration::{motions_without_inertia, unit};
@@ -78,6 +78,8 @@ use rest::Over;
 use setup::Setup;
 use state::side_options;
 
+/// So far beyond an end of what is held, as a part of it, is looked at what begins there: well above rounding.
+const BEYOND: f64 = 1e-4;
 /// Inequalities that are missed by this multiple of the greatest force count as satisfied, and accelerations
 /// below this as none.
 const TOLERANCE: f64 = 1e-9;
@@ -368,11 +370,33 @@ fn load_report(
         unit: load.unit,
         factor: load.nominal,
         self_locking: held.found.last().is_some_and(|last| last.greatest.is_none()),
+        beyond: beyond_held(setup, &held.found, work.part(1, 2)),
         held: held.found,
         undecided: held.undecided,
         threshold,
         certain_from,
     }))
+}
+
+/// What begins just beyond each end of what is held, where contacts may lift off and it is one thing.
+fn beyond_held(setup: &Setup, held: &[Range], work: Work<'_>) -> Vec<BeyondHeld> {
+    if !setup.mechanism.has_one_sided() {
+        return Vec::new();
+    }
+    let ends = held.iter().flat_map(|range| [(range.least, false), (range.greatest, true)]);
+    let beyond = |(at, above): (Option<f64>, bool)| {
+        let (at, mut there) = (at?, setup.clone());
+        if let Some(load) = &mut there.load {
+            let way = if above { BEYOND } else { -BEYOND };
+            load.nominal = at + way * at.abs();
+        }
+        let words = match &*Beginning::new(&there, false, work).releases.found {
+            [only] => answer::begins(only),
+            _ => return None,
+        };
+        Some(BeyondHeld { at, above, words })
+    };
+    ends.filter_map(beyond).collect()
 }
 
 /// The static friction that the loads need as they are; none if there is no static friction that could hold anything.

@@ -16,9 +16,7 @@ pub(super) fn range(
     unit: f64,
 ) -> Result<Range, Unsolved> {
     let ends = region.extent(&state.function(expression))?;
-    // Open contacts make many reactions vanish.
-    let [least, greatest] = ends.map(|end| end.map(|end| if state.is_rounding(end) { 0.0 } else { end }));
-    Ok(Range { least, greatest }.times(unit))
+    Ok(told(ends, unit))
 }
 
 /// The ranges of an expression in a region that friction circles may divide, in this unit.
@@ -29,7 +27,13 @@ pub(super) fn ranges(
     unit: f64,
 ) -> Result<Vec<Range>, Unsolved> {
     let extents = region.extents(&state.function(expression))?;
-    Ok(extents.into_iter().map(|[least, greatest]| Range { least, greatest }.times(unit)).collect())
+    Ok(extents.into_iter().map(|ends| told(ends, unit)).collect())
+}
+
+/// A range in a unit: many reactions vanish but for rounding.
+fn told(ends: [Option<f64>; 2], unit: f64) -> Range {
+    let [least, greatest] = ends.map(|end| end.map(State::without_rounding));
+    Range { least, greatest }.times(unit)
 }
 
 /// The ranges of all reactions in a region of a state; unsolved if its work is to end.

@@ -173,6 +173,9 @@ pub struct LoadReport {
     pub factor: f64,
     /// The factors with which it can stay at rest, in ascending order.
     pub held: Vec<Range>,
+    /// What it begins to do just beyond each end of these ranges, where contacts may lift off; absent without.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub beyond: Vec<BeyondHeld>,
     /// Patterns of contact sides in which that was not decided: they may hold it with others.
     pub undecided: usize,
     /// Whether it can stay at rest with every factor that is great enough.
@@ -182,6 +185,18 @@ pub struct LoadReport {
     /// From which value of the same on it holds by itself, since there it cannot slide, not even where nothing wedged it
     /// before; nothing if it never does, or where that was not sought.
     pub certain_from: Option<f64>,
+}
+
+/// What begins beyond an end of what is held.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct BeyondHeld {
+    /// The end, as a factor of the load, or the effort of the drive (N or N m).
+    pub at: f64,
+    /// Whether it is the upper end of a range.
+    pub above: bool,
+    /// In words: "it tips over shoes.front".
+    pub words: String,
 }
 
 /// The static friction that the loads need as they are.

@@ -161,7 +161,7 @@ impl Page<'_, SweepState> {
         if tally.boundary_rows > 0 && self.is_verbose() {
             let rows = counted(tally.boundary_rows, "row");
             self.line(&format!(
-                "  {rows} where a contact is about to change side: its normal force is zero within rounding."
+                "  {rows} where nothing presses a contact: its normal force is zero within rounding."
             ));
         }
         if let Some(reason) = sweep.without_breakpoints() {

@@ -160,10 +160,10 @@ fn no_loads(mechanism: &Mechanism) -> Option<Fault> {
 
 /// Bodies behind a face that they touch.
 fn behind_faces(mechanism: &Mechanism) -> Vec<Fault> {
-    let one = |(joint, body): (JointId, BodyId)| {
+    let one = |(joint, body, partly): (JointId, BodyId, bool)| {
         let joint = &mechanism.joints[joint.index()];
         let body = mechanism.bodies[body.index()].name.to_string();
-        warning(Doubt::BehindFace { body, joint: joint.name.to_string() }, joint.place.clone())
+        warning(Doubt::BehindFace { body, joint: joint.name.to_string(), partly }, joint.place.clone())
     };
     mechanism.behind_faces().into_iter().map(one).collect()
 }

@@ -231,7 +231,7 @@ fn a_rod_that_turns_fast_opens_or_stays_as_a_threshold() {
     // omega^2 l sin - g
     let sin = 2.0 / 5.0_f64.sqrt();
     assert_close(gap(opens, "tip"), 36.0 * 0.5 * sin - GRAVITY, 1.0, 1e-12);
-    assert_eq!(mode(opens, "tip"), "opens");
+    assert_eq!(mode(opens, "tip"), "lifts off");
     assert_eq!(mode(closed, "tip"), "closed");
     assert_eq!(opens.attainability.verdict, Verdict::Attainable);
     assert_eq!(closed.attainability.verdict, Verdict::Unattainable);

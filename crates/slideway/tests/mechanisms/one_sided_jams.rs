@@ -23,11 +23,7 @@ fn an_impulse_without_collision_ends_the_jam_of_the_rod() {
     let rolls = include_str!("../../models/nip-of-rolls.toml").replace("mu = 0.3", "mu = 0.45");
     let report = report_on(&rolls);
     assert_eq!(report.jam_impulses.as_deref(), Some(&[][..]));
-    assert!(
-        report.answer().ends_with("No impulse without a collision ends the jam either: the drives stall."),
-        "{}",
-        report.answer()
-    );
+    assert!(report.answer().ends_with("The drives stall."), "{}", report.answer());
 }
 
 /// Where `D` and the acceleration `b` of the gap vanish together, `N ~ D^(lambda_b/lambda_a - 1)` with the rates of both in the time

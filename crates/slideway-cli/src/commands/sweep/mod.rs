@@ -158,7 +158,8 @@ impl Work<'_> {
     /// error.
     fn stream(mut self, output: &Output, mut watch: Watch) -> Result<Outcome, Failure> {
         let (encoder, sweep) = (&self.encoder, self.source.sweep());
-        let mut target = output.stream()?;
+        let is_read_here = io::stdout().is_terminal() && output.path().is_none();
+        let mut target = Shown::new(output.stream()?, is_read_here);
         let mut result = target.write_all(&encoder.head());
         let mut state = sweep.start();
         let points = sweep.points();
@@ -192,13 +193,54 @@ impl Work<'_> {
             }
         }
         let outcome = outcome(&state);
-        if outcome == Outcome::Refused || !io::stdout().is_terminal() || output.path().is_some() {
+        if target.left_out > 0 {
+            let more = format!("{} more rows: `--output FILE.csv` writes all of them", target.left_out);
+            complain(&more, output.color());
+        }
+        if outcome == Outcome::Refused || !is_read_here || target.left_out > 0 {
             complain(sweep.text(&state, output.style_of_text()).trim_end(), output.color());
         }
         if let Some(plot) = self.plot {
             plot.write(&state)?;
         }
         Ok(outcome)
+    }
+}
+
+/// Rows that a terminal shows.
+const ROWS_SHOWN: usize = 40;
+
+/// A table on its way to a terminal, which shows its first rows alone, or to whatever takes all of them.
+struct Shown<W> {
+    target: W,
+    /// How many more rows are shown; none if all are.
+    room: Option<usize>,
+    left_out: usize,
+}
+
+impl<W: Write> Shown<W> {
+    fn new(target: W, is_read_here: bool) -> Self {
+        // The names of the columns are a row, too.
+        Self { target, room: is_read_here.then_some(ROWS_SHOWN + 1), left_out: 0 }
+    }
+}
+
+impl<W: Write> Write for Shown<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let Some(room) = &mut self.room else { return self.target.write(bytes) };
+        for line in bytes.split_inclusive(|byte| *byte == b'\n') {
+            if !line.starts_with(b"#") && *room == 0 {
+                self.left_out += 1;
+                continue;
+            }
+            *room -= usize::from(!line.starts_with(b"#"));
+            self.target.write_all(line)?;
+        }
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.target.flush()
     }
 }
 

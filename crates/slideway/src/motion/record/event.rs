@@ -201,7 +201,9 @@ impl Words<'_> {
                 return Some(lifts);
             }
             let told = match (before.joints[index], after.joints[index]) {
-                (JointPhase::Sliding(_), JointPhase::Sticking) => format!("{name} stops and sticks"),
+                (JointPhase::Sliding(_), JointPhase::Sticking) => {
+                    format!("{} stops and sticks", self.touching(*joint, after).unwrap_or(name))
+                }
                 (JointPhase::Sticking, JointPhase::Sliding(_)) => {
                     format!("{name} starts to slide: it {}", self.state("is now", index, *joint, after))
                 }
@@ -239,6 +241,14 @@ impl Words<'_> {
             Some(told)
         };
         self.sliders.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// The corner on which a block has tipped: when that stops, the block goes on turning about it.
+    fn touching(&self, joint: JointId, phase: &Phase) -> Option<&str> {
+        let contacts = &self.mechanism.slider(joint)?.contacts;
+        let mut closed = contacts.iter().filter(|contact| !phase.is_open(self.mechanism, contact.index()));
+        let (corner, None) = (closed.next()?, closed.next()) else { return None };
+        (contacts.len() > 1).then(|| self.contact(*corner))
     }
 
     /// That contacts of a joint lift off or come to touch, if they do.

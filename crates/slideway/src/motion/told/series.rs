@@ -1,12 +1,14 @@
 //! A motion as a table: one row for each time.
 
 use crate::configuration::unit;
-use crate::ids::ContactId;
+use crate::ids::{BodyId, ContactId};
 use crate::kinetics::ConstraintRow;
 use crate::mechanism::Mechanism;
 use crate::motion::decision::{DeterminedForces, determined_forces};
 use crate::motion::record::history::{HingeSample, History, Sample};
 use crate::pattern::{HingePhase, Phase};
+use crate::units::number::beside;
+use nalgebra::DVector;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -106,7 +108,8 @@ impl History {
         let mut row = Vec::with_capacity(columns.len());
         for sample in times.iter().filter_map(|time| reader.at(*time)) {
             row.clear();
-            values(mechanism, &sample, &self.determined_forces(&sample), &mut row);
+            let phase = self.phases.get(sample.phase).map(|interval| &interval.phase);
+            values((mechanism, phase), &sample, &self.determined_forces(&sample), &mut row);
             columns.iter_mut().zip(&row).for_each(|(column, value)| column.values.push(*value));
             modes.push(patterns.get(sample.phase).cloned().unwrap_or_default());
         }
@@ -182,23 +185,41 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
     columns
 }
 
-/// The numbers of a row, in the order of the columns.
-fn values(mechanism: &Mechanism, sample: &Sample, forces: &DeterminedForces, row: &mut Vec<Option<f64>>) {
+/// The numbers of a row, in the order of the columns: 0 where they are rounding errors beside those of the bodies, and the gap of what
+/// touches in the phase.
+fn values(
+    (mechanism, phase): (&Mechanism, Option<&Phase>),
+    sample: &Sample,
+    forces: &DeterminedForces,
+    row: &mut Vec<Option<f64>>,
+) {
     let configuration = &sample.configuration;
+    let accelerations = DVector::from_iterator(
+        3 * sample.accelerations.len(),
+        sample.accelerations.iter().flatten().copied(),
+    );
+    let velocities = configuration.velocities.iter();
+    let velocities: Vec<f64> = velocities.flat_map(|one| [one.linear.x, one.linear.y, one.angular]).collect();
+    let velocities = DVector::from_vec(velocities);
     row.push(Some(configuration.time));
     let mut equation = ConstraintRow::empty();
     let states = mechanism.coordinates.iter().zip(configuration.coordinates.iter().zip(&configuration.rates));
     for (coordinate, (value, rate)) in states {
         equation.set_coordinate(mechanism, configuration, coordinate.kind);
-        let terms =
-            equation.entries.iter().map(|&(at, factor)| factor * sample.accelerations[at / 3][at % 3]);
-        let acceleration = terms.sum::<f64>() - equation.right_hand_side;
-        row.extend([Some(*value), Some(*rate), Some(acceleration)]);
+        let rate = if equation.acceleration(&velocities, true) == 0.0 { 0.0 } else { *rate };
+        row.extend([Some(*value), Some(rate), Some(equation.acceleration(&accelerations, false))]);
     }
     for (k, (contact, [normal_force, friction])) in sample.contacts.iter().zip(&forces.contacts).enumerate() {
-        row.extend([*normal_force, *friction, Some(contact.sliding_velocity)]);
+        let slider = mechanism.slider(mechanism.contacts[k].joint);
+        let bodies =
+            slider.into_iter().flat_map(|slider| [slider.block.body(), slider.guide.body()]).flatten();
+        let speed = |body: BodyId| configuration.velocities[body.index()].linear.norm();
+        let sliding = beside(contact.sliding_velocity, bodies.map(speed).fold(0.0, f64::max));
+        row.extend([*normal_force, *friction, Some(sliding)]);
         if mechanism.contacts[k].opens {
-            row.push(Some(configuration.gap(mechanism, ContactId(k))[0]));
+            let touches = phase.is_some_and(|phase| !phase.is_open(mechanism, k));
+            let gap = || configuration.gap(mechanism, ContactId(k))[0];
+            row.push(Some(if touches { 0.0 } else { gap() }));
         }
     }
     for (hinge, [x, y, couple]) in sample.hinges.iter().zip(&forces.hinges) {

@@ -105,7 +105,7 @@ impl BlockAnswer<'_> {
                 let forces = (solution.states.as_slice(), solution.reactions.as_slice());
                 attainability_with_hinges(self.answer.data(), state, self.hinges, forces)
             } else {
-                not_computed("a contact is about to change side, or a hinge with friction carries nothing")
+                not_computed("nothing presses a contact, or a hinge with friction carries nothing")
             };
             solutions.push(kept);
         }

@@ -377,9 +377,9 @@ impl State<'_> {
         AffineExpression::unknown(self.force(place), 1.0)
     }
 
-    /// Whether a quantity in the units of the programs is but rounding, of redundant guides.
-    pub(super) fn is_rounding(&self, value: f64) -> bool {
-        self.setup.shared.is_some() && value.abs() <= NOTHING
+    /// A quantity in the units of the programs, 0 where it is but rounding.
+    pub(super) fn without_rounding(value: f64) -> f64 {
+        if value.abs() <= NOTHING { 0.0 } else { value }
     }
 
     /// Effort of a drive.

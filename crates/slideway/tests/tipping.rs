@@ -1,0 +1,164 @@
+//! Blocks that may lift off a corner: tipping ends the safety factor, as a jam does, and every answer says so.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
+
+use slideway::limits::{LimitsOptions, Vary, limits};
+use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
+use slideway::motion::{SimulateOptions, simulate};
+use slideway::size::{SizeOptions, size};
+use slideway::sweep::{GridAxis, Rows, Sweep, SweepOptions};
+use slideway::{
+    DriveOptions, HoldOptions, Model, Report, Settings, drive, gallery, hold, solve, warning::warnings,
+};
+use std::ops::ControlFlow;
+
+/// A door that is pulled at the height h over its two shoes, which are b apart. At constant speed the pull is mu W, and its
+/// moment about the front shoe, mu W h, lifts the rear one as soon as it exceeds W b/2: from mu = b/(2 h) on.
+const DOOR: &str = include_str!("../../../docs/src/examples/sliding-door.toml");
+
+fn door(settings: &[(&str, &str)]) -> Model {
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    Model::parse(DOOR).unwrap().with(&settings).unwrap()
+}
+
+#[test]
+fn tipping_ends_the_safety_factor() {
+    let limit = solve(&door(&[])).unwrap().margins.unwrap().tipping.unwrap();
+    assert_eq!(limit.joints, ["shoes"]);
+    assert!((limit.factor - 0.45 / 0.3).abs() < 1e-12, "{limit:?}");
+    // A factor x needs h = b/(2 mu x).
+    for (margin, at) in [(1.0, 1.5), (1.5, 1.0), (2.0, 0.75)] {
+        let report = size(&door(&[]), &SizeOptions::new("h".parse::<Vary>().unwrap(), margin)).unwrap();
+        assert!((report.met[0].to - at).abs() < 1e-12 && report.met.len() == 1, "{:?}", report.met);
+        assert_eq!(report.tips, ["shoes"]);
+    }
+    // Where it tips already, friction has to fall to b/(2 h mu).
+    let options = SizeOptions::new("mu".parse::<Vary>().unwrap(), 1.0);
+    let report = size(&door(&[("h", "2500 mm")]), &options).unwrap();
+    assert!((report.present.margin.unwrap() - 0.18 / 0.3).abs() < 1e-12, "{:?}", report.present);
+    assert!(report.answer().contains("shoes tips; friction would have to fall to 0.6 of its value"));
+}
+
+#[test]
+fn every_answer_says_that_it_tips() {
+    let would = "shoes would tip from mu = 0.45 (1.5 times this friction).";
+    let sized = size(&door(&[]), &SizeOptions::new("mu".parse::<Vary>().unwrap(), 1.2)).unwrap().answer();
+    assert!(solve(&door(&[])).unwrap().safety_in_words().concat().starts_with(would));
+    assert!(drive(&door(&[]), &DriveOptions::default()).unwrap().answer().contains(would));
+    assert!(
+        sized.starts_with("For a safety factor of 1.2 against jamming and tipping: mu at most 0.375"),
+        "{sized}"
+    );
+    assert!(sized.contains("its safety factor is 1.5 (beyond, shoes tips), which is enough."), "{sized}");
+    let limited = limits(&door(&[]), &LimitsOptions::new("mu=0..1.2".parse::<Vary>().unwrap())).unwrap();
+    assert_eq!(limited.answer(), "It tips from mu = 0.45 on (the model has 0.3).");
+    let options = DriveOptions::default().vary("h=0.2 m..5 m".parse::<Vary>().unwrap());
+    let over = drive(&door(&[]), &options).unwrap().answer();
+    assert!(over.contains("Over h from 200 to 5000 mm, shoes tips from 1500 mm on."), "{over}");
+    let drawn = drive(&door(&[("h", "2500 mm")]), &DriveOptions::default()).unwrap().answer();
+    assert!(drawn.contains(" shoes tips."), "{drawn}");
+}
+
+/// At rest a pull tips it as soon as its moment about a shoe exceeds W b/2, if friction holds it: here 9.81 * 30 * 0.45 / 1.9.
+#[test]
+fn what_is_held_ends_by_sliding_or_by_tipping() {
+    let held = |h: &str| {
+        let model = door(&[("h", h)]);
+        hold(&model, &HoldOptions::default().load("pull")).unwrap().answer()
+    };
+    assert!(
+        held("1000 mm").contains("from -88.29 to 88.29 N. Beyond, it starts to slide."),
+        "{}",
+        held("1000 mm")
+    );
+    let tips = "Below -69.7 N it tips over shoes.rear, above 69.7 N it tips over shoes.front.";
+    assert!(held("1900 mm").contains(tips), "{}", held("1900 mm"));
+}
+
+#[test]
+fn a_map_of_motions_tells_what_tips() {
+    let [x, y] = ["mu=0.05..0.4", "h=500mm..2500mm"].map(|axis| axis.parse::<Vary>().unwrap());
+    let report = map(&door(&[]), &MapOptions::new(x, y).size(24, 24).colour_by(ColourBy::Motion)).unwrap();
+    let tips = report.classes.iter().position(|class| {
+        matches!(&class.meaning, ClassMeaning::Motion { solutions, tipping: 1, .. } if solutions.len() == 1)
+    });
+    let tips = tips.unwrap();
+    assert_eq!(report.classes[tips].words, "one solution: it tips");
+    // mu = 0.3 at 2.4 m tips, mu = 0.06 at 0.6 m does not.
+    let at = |mu: f64, h: f64| {
+        let [column, row] = [(mu - 0.05) / 0.35 * 24.0, (h - 0.5) / 2.0 * 24.0];
+        report.class_at(column as usize, row as usize)
+    };
+    assert_eq!(at(0.3, 2.4), tips);
+    assert_ne!(at(0.06, 0.6), tips);
+}
+
+/// Both loads hang as far from the middle of the guide, so that nothing presses it, wherever they hang: what is left of the
+/// forces is rounding of some 10 N.
+#[test]
+fn forces_that_are_rounding_are_zero_in_tables() {
+    let text =
+        DOOR.replace("block_on_face", "block_slider").replace("along = \"0 deg\"", "along = \"90 deg\"");
+    let text = text
+        .replace("direction = \"0 deg\"", "direction = \"90 deg\"")
+        .replace("handle = [\"b/2\", \"h\"]", "handle = [0, \"h\"]");
+    let load = |at: &str| {
+        format!("[loads.{at}]\ntype = \"force\"\nat = \"door.{at}\"\ncomponents = [0, \"-17.3 N\"]\n")
+    };
+    let loads = load("A") + &load("B");
+    let text = text.replace("[points]", "[points]\nA = [\"-h\", 0.3]\nB = [\"h\", 0.3]");
+    let model = Model::parse(
+        &(text.replace("\"middle\", \"handle\"", "\"middle\", \"handle\", \"A\", \"B\"") + &loads),
+    )
+    .unwrap();
+    let options = SweepOptions::grid([GridAxis::linear("h", 0.01, 0.2, 40)]).breakpoints(false);
+    let sweep = Sweep::new(&model, &options).unwrap();
+    let mut state = sweep.start();
+    let mut forces = Vec::new();
+    sweep.run(&mut state, &Rows::clone, &mut |all, _| {
+        for rows in all {
+            forces.extend((0..rows.len()).flat_map(|row| rows.numbers(row)[1..5].to_vec()));
+        }
+        ControlFlow::Continue(())
+    });
+    assert_eq!(forces.len(), 160);
+    assert!(forces.iter().all(|force| *force == 0.0), "{forces:?}");
+}
+
+/// By hand: on the cam that falls away the foot floats, and its motor needs nothing.
+#[test]
+fn efforts_that_cancel_are_zero() {
+    let model = Model::parse(gallery::find("cam-and-spring").unwrap().text).unwrap();
+    let options = DriveOptions::default().vary("speed=50rad/s..100rad/s".parse::<Vary>().unwrap());
+    let course = drive(&model, &options).unwrap().course.unwrap();
+    for row in &course.directions[0].rows {
+        assert_eq!(row.efforts.as_deref(), Some(&[0.0][..]), "{row:?}");
+        assert_eq!(row.frictionless.as_deref(), Some(&[0.0][..]), "{row:?}");
+    }
+}
+
+/// What touches has no gap and what sticks no velocity in the table of a motion: a block that rocks about one corner.
+#[test]
+fn rounding_is_no_motion_in_tables() {
+    let text = include_str!("../../../docs/src/examples/rocking-block.toml");
+    let history = simulate(&Model::parse(text).unwrap(), &SimulateOptions::new(0.1)).unwrap();
+    let series = history.series(&history.times_in_steps(0.01));
+    for name in ["base.rear.gap", "base.rear.sliding_velocity", "x.rate", "x.acceleration"] {
+        let values = &series.column(name).unwrap().values;
+        assert!(values.iter().all(|value| *value == Some(0.0)), "{name}: {values:?}");
+    }
+    assert!(series.column("turn.rate").unwrap().values[5].unwrap() < -0.1);
+}
+
+#[test]
+fn a_base_under_the_floor_is_warned_of() {
+    let behind = |text: &str| -> Vec<String> {
+        let found = warnings(&Model::parse(text).unwrap());
+        found.sorted().iter().map(|fault| fault.kind.to_string()).collect()
+    };
+    assert_eq!(behind(DOOR), Vec::<String>::new());
+    let sunk = DOOR.replace("centre_of_mass = [0, \"1000 mm\"]", "centre_of_mass = [0, \"900 mm\"]");
+    assert_eq!(behind(&sunk), ["door lies partly behind the face of shoes"]);
+    let under = DOOR.replace("along = \"0 deg\"", "along = \"180 deg\"");
+    assert_eq!(behind(&under)[0], "door lies behind the face of shoes");
+}
