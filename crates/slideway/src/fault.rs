@@ -465,6 +465,12 @@ pub enum FaultKind {
     GuidesDoNotFit { joint: String, gap: String },
     #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
     SingularPosition { lost: usize, joints: Vec<String> },
+    #[error("{question} is not computed for loads in space")]
+    InSpace { question: &'static str },
+    #[error("{joint}: {what} is not known in space")]
+    JointInSpace { joint: String, what: &'static str },
+    #[error("nothing keeps {body} from {motion}")]
+    NotCarried { body: String, motion: String },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
     NoFreedom,
     #[error("{} of freedom, but {}", degrees(*degrees_of_freedom), coordinates(*chosen))]
@@ -659,6 +665,14 @@ impl FaultKind {
             Self::LiftsWithoutInertia { .. } => Some(
                 "give mass to the bodies that nothing else holds".to_owned(),
             ),
+            Self::NotCarried { .. } => Some(
+                "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`"
+                    .to_owned(),
+            ),
+            Self::JointInSpace { .. } => Some(
+                "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `carries`, `moments`, `products_of_inertia`"
+                    .to_owned(),
+            ),
             Self::OffFace { .. } => Some("draw it where it touches its face; what is apart is `closed = false`".to_owned()),
             Self::Penetration { .. } => Some(
                 "change the coordinates until there is a gap; what touches is `closed = true`, and needs one coordinate less"
@@ -708,6 +722,10 @@ impl FaultKind {
     /// Hints that name options and questions.
     fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
         Some(match self {
+            Self::InSpace { .. } => format!(
+                "ask `{}`, `limits`, `drive`, `size`, `sweep` or `map` at instants of the motion",
+                face.question("solve")
+            ),
             Self::SharedLoad { .. } => format!(
                 "give them `play` and `loose = true`, and no stiffness: then each face is a contact by itself; or ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
                 face.question("solve")

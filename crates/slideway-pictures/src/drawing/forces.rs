@@ -121,7 +121,7 @@ impl Painter<'_> {
             let rim = if slide.is_disc { 0.5 * slide.height } else { 0.0 };
             for ([gap, _], contact) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {
                 let corner =
-                    self.attached(&Attachment { frame: slider.block, position: contact.position(slider) });
+                    self.attached(&Attachment::new(slider.block, contact.position(slider)));
                 let from = corner - slide.guide.across * rim;
                 let to = from - slide.guide.across * (gap * self.view.scale);
                 self.line(Class::Leader, vec![from, to]);

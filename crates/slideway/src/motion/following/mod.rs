@@ -53,6 +53,7 @@ pub fn simulate_with(
     if mechanism.friction_circles.iter().any(|circle| circle.radius > 0.0) {
         mechanism.check_no_one_sided("a motion with friction in hinges")?;
     }
+    mechanism.check_planar("a motion in time")?;
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);
