@@ -322,9 +322,7 @@ impl Painter<'_> {
         }
         let properties = &self.mechanism.bodies[body.index()];
         if properties.shape.is_none() {
-            places.extend(
-                properties.points.iter().map(|(_, position)| Attachment::new(frame, *position)),
-            );
+            places.extend(properties.points.iter().map(|(_, position)| Attachment::new(frame, *position)));
         }
         places.iter().map(|place| self.attached(place)).collect()
     }

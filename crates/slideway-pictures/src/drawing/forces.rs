@@ -120,8 +120,7 @@ impl Painter<'_> {
             let Some(slide) = self.slide(joint) else { continue };
             let rim = if slide.is_disc { 0.5 * slide.height } else { 0.0 };
             for ([gap, _], contact) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {
-                let corner =
-                    self.attached(&Attachment::new(slider.block, contact.position(slider)));
+                let corner = self.attached(&Attachment::new(slider.block, contact.position(slider)));
                 let from = corner - slide.guide.across * rim;
                 let to = from - slide.guide.across * (gap * self.view.scale);
                 self.line(Class::Leader, vec![from, to]);

@@ -349,7 +349,15 @@ impl<T: Real> Configuration<T> {
             sliding_velocity += spin * (slider.height / T::exactly(2.0));
         }
         let normal = rot90(tangent);
-        ContactGeometry { point, tangent, z: slider.z, normal, lean: None, sliding_velocity, velocity_at_point }
+        ContactGeometry {
+            point,
+            tangent,
+            z: slider.z,
+            normal,
+            lean: None,
+            sliding_velocity,
+            velocity_at_point,
+        }
     }
 
     /// The tangent u of a guide where its block is.

@@ -147,7 +147,8 @@ impl Coefficients<'_> {
             solution.entry(row, column) * Interval::point(columns[row])
         });
         let first = self.first_couple() + couples.len();
-        let answers = (first..first + openings.len()).map(|column| unknowns.column(column).into_owned()).collect();
+        let answers =
+            (first..first + openings.len()).map(|column| unknowns.column(column).into_owned()).collect();
         for (column, opening) in (first..).zip(layout.openings(answers)) {
             unknowns.set_column(column, &opening.answer);
         }

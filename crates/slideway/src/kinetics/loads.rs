@@ -4,7 +4,9 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, Frame};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length, length_in_space, rot90, tilting};
+use crate::mechanism::{
+    Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length, length_in_space, rot90, tilting,
+};
 use nalgebra::Vector2;
 
 /// A force at a place, or a couple, on a frame.
@@ -107,7 +109,9 @@ impl<T: Real> Applied<T> {
             }
             let is_usual = |wrench: &Wrench<T>| {
                 let Wrench { force, couple, along_z, tilt, .. } = wrench;
-                [force.x, force.y, *couple, *along_z, tilt.x, tilt.y].iter().all(|part| part.magnitude() < GREATEST)
+                [force.x, force.y, *couple, *along_z, tilt.x, tilt.y]
+                    .iter()
+                    .all(|part| part.magnitude() < GREATEST)
             };
             if !loads.wrenches[first..].iter().all(is_usual) {
                 let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
@@ -150,7 +154,9 @@ pub(crate) fn unit_effort<T: Real>(
         Effort::Force { at, direction, turns, reaction } => {
             let direction = if turns { configuration.direction(at.frame, direction) } else { direction };
             let place = configuration.position(mechanism, &at);
-            let on = |frame: Frame, force: Vector2<T>| Wrench::force(frame, place, force).in_space(at.z, T::zero());
+            let on = |frame: Frame, force: Vector2<T>| {
+                Wrench::force(frame, place, force).in_space(at.z, T::zero())
+            };
             [Some(on(at.frame, direction)), reaction.map(|frame| on(frame, -direction))]
         }
         Effort::Torque { body, reaction } => {

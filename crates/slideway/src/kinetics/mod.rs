@@ -151,6 +151,11 @@ impl Layout {
         self.accelerations
     }
 
+    /// Whether an acceleration is one of rotation.
+    pub(crate) fn is_rotation(&self, acceleration: usize) -> bool {
+        if acceleration < 3 * self.bodies { acceleration % 3 == 2 } else { acceleration % 3 != 0 }
+    }
+
     /// Index of a reaction, if the mechanism has it.
     pub fn reaction(&self, reaction: Reaction) -> Option<usize> {
         let index = self.reactions.iter().position(|other| *other == reaction)?;
@@ -561,7 +566,8 @@ impl<T: Real> Builder<'_, T> {
                 matrix[(effort, column)] += value;
             }
             for wrench in loads::unit_effort(self.mechanism, self.configuration, &drive.effort) {
-                wrench.add_to(self.mechanism, self.configuration, |row, value| matrix[(row, effort)] -= value);
+                wrench
+                    .add_to(self.mechanism, self.configuration, |row, value| matrix[(row, effort)] -= value);
             }
         }
         matrix
@@ -587,7 +593,8 @@ impl<T: Real> Builder<'_, T> {
             let tilt = self.mechanism.space.as_ref().and_then(|space| space.bodies[index].tilt);
             let Some([about_x, about_y]) = tilt else { continue };
             // In the axes of the drawing: turned with the body.
-            let [x, y] = [Vector2::x(), Vector2::y()].map(|axis| self.configuration.poses[index].turned(axis));
+            let [x, y] =
+                [Vector2::x(), Vector2::y()].map(|axis| self.configuration.poses[index].turned(axis));
             for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                 matrix[(first + 1 + row, first + 1 + column)] =
                     about_x * x[row] * x[column] + about_y * y[row] * y[column];

@@ -170,7 +170,8 @@ impl<T: Real> ConstraintRow<T> {
             return self.round(mechanism, configuration, (slider, round), contact);
         }
         self.add(configuration, slider.guide, contact.point, -contact.normal);
-        let turning = T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.velocity_at_point;
+        let turning =
+            T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.velocity_at_point;
         self.right_hand_side += contact.lean.map_or(turning, |[cos, _]| turning * cos);
     }
 
@@ -188,7 +189,8 @@ impl<T: Real> ConstraintRow<T> {
             let Some((first, _)) = mechanism.out_of_plane(frame) else { continue };
             if component == 0 {
                 let (position, z) = joined.place;
-                let place = configuration.position(mechanism, &Attachment { frame: joined.frames[0], position, z });
+                let place =
+                    configuration.position(mechanism, &Attachment { frame: joined.frames[0], position, z });
                 self.add_out((mechanism, configuration), frame, (place, z), (Vector2::zeros(), sign));
             } else {
                 let axis = configuration.direction(joined.axes_of, joined.axes[component - 1]) * sign;

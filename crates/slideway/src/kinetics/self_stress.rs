@@ -18,14 +18,13 @@ impl Assembled<f64> {
     /// # Errors
     /// The position is singular: a cut contact has no self-stress here.
     pub(crate) fn self_stresses(&self, mechanism: &Mechanism) -> Result<DMatrix<f64>, Faults> {
-        let (bodies, planar) = (self.layout.accelerations, 3 * mechanism.bodies.len());
+        let bodies = self.layout.accelerations;
         let place =
             |contact: ContactId| self.layout.reaction(Reaction::Normal(contact)).map(|at| at - bodies);
         let cut: Vec<usize> = self.layout.cut.iter().filter_map(|contact| place(*contact)).collect();
         // Moments count in forces times the size of the mechanism.
         let mut balance = self.matrix.view((0, bodies), (bodies, self.layout.reactions.len())).into_owned();
-        let turns = |row: usize| if row < planar { row % 3 == 2 } else { row % 3 != 0 };
-        let rotations = (0..bodies).filter(|row| turns(*row));
+        let rotations = (0..bodies).filter(|row| self.layout.is_rotation(*row));
         rotations.for_each(|row| balance.row_mut(row).scale_mut(1.0 / mechanism.size));
         let kept: Vec<usize> = (0..balance.ncols()).filter(|column| !cut.contains(column)).collect();
         let of_kept = balance.select_columns(&kept);

@@ -1,8 +1,8 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
-    BodyInSpace, FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, Space,
+    Attachment, Body, BodyInSpace, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition,
+    Excess, FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, Space,
     length, length_in_space, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
@@ -172,7 +172,9 @@ impl<T: Real> Evaluation<'_, T> {
             Moment::Given(_) => None,
             Moment::Bar(ends) => Some(Shape::Bar(ends.map(|end| self.vector(end)))),
             Moment::Rectangle(sides) => Some(Shape::Rectangle(sides.map(|side| self.value(side)))),
-            Moment::Box([width, height, _]) => Some(Shape::Rectangle([width, height].map(|side| self.value(*side)))),
+            Moment::Box([width, height, _]) => {
+                Some(Shape::Rectangle([width, height].map(|side| self.value(*side))))
+            }
             Moment::Disc(radius) => Some(Shape::Disc(self.value(*radius))),
         }
     }
@@ -367,7 +369,14 @@ impl<T: Real> Evaluation<'_, T> {
                 };
                 let turns = *frame == ForceFrame::Body;
                 let along_z = self.quantity_or_zero(*along_z);
-                LoadKind::Force { at: self.attachment(at), components, axes, along_z, turns, reaction: *reaction }
+                LoadKind::Force {
+                    at: self.attachment(at),
+                    components,
+                    axes,
+                    along_z,
+                    turns,
+                    reaction: *reaction,
+                }
             }
             ModelLoadKind::Torque { body, moment, tilt, reaction } => LoadKind::Torque {
                 body: *body,

@@ -71,7 +71,8 @@ impl Mechanism {
     pub(super) fn found_excess(&self) -> Excess {
         let (reactions, contacts): (Vec<Row>, Vec<Option<ContactId>>) =
             self.reaction_rows().into_iter().unzip();
-        let excess = |rows: &[Row], columns: usize| (rows.len() + self.coordinates.len()).saturating_sub(columns);
+        let excess =
+            |rows: &[Row], columns: usize| (rows.len() + self.coordinates.len()).saturating_sub(columns);
         let positions = self.position_rows();
         let of_positions = excess(&positions, 3 * self.bodies.len());
         let of_reactions = excess(&reactions, self.accelerations());

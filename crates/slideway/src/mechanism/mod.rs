@@ -31,9 +31,9 @@ pub use excess::Excess;
 use nalgebra::Vector2;
 pub use pad::Pad;
 pub(crate) use part::{body_of, frames_of};
+pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 pub(crate) use space::tilting;
 pub use space::{BodyInSpace, Space};
-pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
@@ -908,7 +908,11 @@ pub fn rot90<T: Real>(vector: Vector2<T>) -> Vector2<T> {
 
 /// Length of a vector with a part out of the drawing.
 pub(crate) fn length_in_space<T: Real>(vector: Vector2<T>, rise: T) -> T {
-    if rise.is_zero() { length(vector) } else { (vector.x.square() + vector.y.square() + rise.square()).sqrt() }
+    if rise.is_zero() {
+        length(vector)
+    } else {
+        (vector.x.square() + vector.y.square() + rise.square()).sqrt()
+    }
 }
 
 /// Length of a vector.

@@ -35,10 +35,7 @@ pub struct BodyInSpace<T = f64> {
 }
 
 /// The moments about x and y of a force with a component along z, by its arm (theory of loads in space).
-pub(crate) fn tilting<T: Real>(
-    (arm, z): (Vector2<T>, T),
-    (force, along_z): (Vector2<T>, T),
-) -> Vector2<T> {
+pub(crate) fn tilting<T: Real>((arm, z): (Vector2<T>, T), (force, along_z): (Vector2<T>, T)) -> Vector2<T> {
     Vector2::new(arm.y * along_z - z * force.y, z * force.x - arm.x * along_z)
 }
 
@@ -66,6 +63,13 @@ impl Mechanism {
     /// The size of the acceleration of free fall (m/s^2).
     pub(crate) fn free_fall(&self) -> f64 {
         self.space.as_ref().map_or(self.gravity.norm(), |space| self.gravity.norm().hypot(space.gravity))
+    }
+
+    /// A body whose moments of inertia about axes in the drawing are not known in space.
+    pub(crate) fn unknown_tilt(&self) -> Option<&str> {
+        let space = self.space.as_ref()?;
+        let known = space.bodies.iter().map(|body| body.tilt.is_some());
+        self.bodies.iter().zip(known).find_map(|(body, is_known)| (!is_known).then_some(&*body.name))
     }
 
     /// Refuses a question about a model that has something out of the plane, for what is answered in the plane alone.
@@ -123,7 +127,10 @@ impl Mechanism {
             (slider.loose, "a loose guide"),
             (!slider.apart.is_empty(), "a contact that is apart from its face"),
             (contacts().any(|contact| contact.face.is_some()), "a press fit"),
-            (leans && contacts().any(|contact| contact.misalignment_law.is_some()), "a misalignment that varies"),
+            (
+                leans && contacts().any(|contact| contact.misalignment_law.is_some()),
+                "a misalignment that varies",
+            ),
         ]
         .into_iter()
         .find_map(|(is_there, what)| is_there.then_some(what))
@@ -173,7 +180,8 @@ impl Mechanism {
             }
         });
         let angle = axis.y.atan2(axis.x).to_degrees();
-        about.unwrap_or_else(|| format!("turning about a line in the drawing, {angle:.0} deg from the x axis"))
+        about
+            .unwrap_or_else(|| format!("turning about a line in the drawing, {angle:.0} deg from the x axis"))
     }
 }
 

@@ -256,9 +256,8 @@ impl Model {
             }
             LoadKind::TorsionalSpring { .. } | LoadKind::TorsionalDamper { .. } => false,
         };
-        let drive = |drive: &super::Drive| {
-            matches!(&drive.effort, super::Effort::Force { at, .. } if at.z.is_some())
-        };
+        let drive =
+            |drive: &super::Drive| matches!(&drive.effort, super::Effort::Force { at, .. } if at.z.is_some());
         matches!(self.gravity, super::Gravity::Components(_, Some(_)))
             || self.bodies.iter().any(body)
             || self.joints.iter().any(joint)

@@ -43,7 +43,9 @@ impl Balance<'_> {
         let size = self.mechanism.size;
         let greatest = forces
             .iter()
-            .map(|wrench| length(wrench.force).max(wrench.couple.abs() / size).max(out_of_plane(wrench, size)))
+            .map(|wrench| {
+                length(wrench.force).max(wrench.couple.abs() / size).max(out_of_plane(wrench, size))
+            })
             .fold(0.0, f64::max);
         (0..self.mechanism.bodies.len()).map(|body| self.residual(BodyId(body), &forces, greatest)).collect()
     }

@@ -130,8 +130,7 @@ impl Reader<'_> {
             (Moment::Bar(_), None) | (_, Some(_)) => {}
             (_, None) => self.fault(FaultKind::NoneOf { owner, one_of: vec!["centre_of_mass"] }, span),
         }
-        let centre =
-            centre.map(|place| self.place_in_space(place, &format!("the centre of mass of {name}")));
+        let centre = centre.map(|place| self.place_in_space(place, &format!("the centre of mass of {name}")));
         let what = format!("the product of inertia of {name}");
         let products = table.products_of_inertia.as_ref().map(|products| {
             products.each_ref().map(|product| {

@@ -127,7 +127,8 @@ fn amounts_of(mechanism: &Mechanism, configuration: &Configuration, load: &Load)
             changing.map(|index| (Amount::Value(components[index]), unit(index))).collect()
         }
         LoadKind::Torque { body, moment, tilt, reaction } if changes(moment) => {
-            let unit = LoadKind::Torque { body: *body, moment: constant(1.0), tilt: *tilt, reaction: *reaction };
+            let unit =
+                LoadKind::Torque { body: *body, moment: constant(1.0), tilt: *tilt, reaction: *reaction };
             vec![(Amount::Value(*moment), with(unit))]
         }
         LoadKind::Spring { between, stiffness, free_length }

@@ -111,7 +111,9 @@ impl Equations<'_> {
                 self.system.add(effort, column, value);
             }
             for wrench in effort_forces(self.mechanism, &self.configuration, &drive.effort) {
-                wrench.add_to(self.mechanism, &self.configuration, |row, value| self.system.add(row, effort, -value));
+                wrench.add_to(self.mechanism, &self.configuration, |row, value| {
+                    self.system.add(row, effort, -value)
+                });
             }
             let prescribed = self.configuration.quantity(self.mechanism, drive.acceleration);
             self.unknowns[effort] =
