@@ -735,9 +735,9 @@ pub(crate) fn friction_forces<T: Real>(
     sign: T,
     friction: T,
 ) -> [Wrench<T>; 2] {
-    let slider =
-        mechanism.slider(mechanism.contacts[id.index()].joint).expect("contacts belong to sliding joints");
-    let half = sign * (slider.height / T::exactly(2.0));
+    let Contact { joint, height, .. } = &mechanism.contacts[id.index()];
+    let slider = mechanism.slider(*joint).expect("contacts belong to sliding joints");
+    let half = sign * (height.unwrap_or(slider.height) / T::exactly(2.0));
     let place = contact.point - contact.normal * half;
     let z = contact.lean.map_or(contact.z, |[_, sin]| contact.z - sin * half);
     let on = |frame: Frame, force: Vector2<T>| Wrench::force(frame, place, force).in_space(z, T::zero());

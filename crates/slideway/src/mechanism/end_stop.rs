@@ -82,6 +82,7 @@ fn contact_of((name, joint): (&Arc<str>, JointId), restitution: f64, gap: f64) -
         offset: 0.0,
         aside: [0.0; 2],
         lean: None,
+        height: None,
         carried_by: CarriedBy::Block,
         mu: [0.0; 2],
         law: [None; 2],

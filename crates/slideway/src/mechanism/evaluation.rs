@@ -231,7 +231,9 @@ impl<T: Real> Evaluation<'_, T> {
         for (index, contact) in slider.contacts.iter().enumerate() {
             let place = contact.face.filter(|face| !face.is_positive).map_or(index, |face| face.other);
             let offset = T::exactly(offsets.get(place).copied().unwrap_or(0.0)) * length;
-            contacts.push(self.contact((contact, joint), first, [offset, length]));
+            let mut contact = self.contact((contact, joint), first, [offset, length]);
+            contact.height = contact.height.map(|height| if slider.around { -height } else { height });
+            contacts.push(contact);
         }
         let tangent = self.direction(&slider.along);
         let at = self.vector(slider.at) + tangent * corner;
@@ -292,6 +294,7 @@ impl<T: Real> Evaluation<'_, T> {
             offset: contact.offset.map_or(offset, |offset| self.value(offset)),
             aside: contact.aside.map(|aside| self.or_zero(aside)),
             lean: contact.normal.map(|normal| self.value(normal).direction()),
+            height: contact.height.map(|height| self.value(height)).or(contact.normal.map(|_| T::zero())),
             carried_by: contact.carried_by,
             mu: contact.mu.map(|mu| self.value(mu)),
             law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),

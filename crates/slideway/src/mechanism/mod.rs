@@ -236,6 +236,9 @@ pub struct Contact<T = f64> {
     pub aside: [T; 2],
     /// Cosine and sine of the angle of its normal from n towards z, if that is not in the drawing.
     pub lean: Option<[T; 2]>,
+    /// The distance of its rubbing faces along its normal (m), negative where the block surrounds the guide, if it is not
+    /// that of the joint.
+    pub height: Option<T>,
     /// Part with which it travels: block or guide.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative: at the
@@ -816,8 +819,9 @@ impl<T: Real> Mechanism<T> {
 
     /// Whether the friction of a contact's preload acts at another face when the contact changes its side.
     pub fn preload_changes_face(&self, contact: ContactId) -> bool {
-        let Contact { joint, preload, preload_line, .. } = &self.contacts[contact.index()];
-        let has_two_faces = self.slider(*joint).is_some_and(|slider| slider.height != T::zero());
+        let Contact { joint, preload, preload_line, height, .. } = &self.contacts[contact.index()];
+        let has_two_faces =
+            self.slider(*joint).is_some_and(|slider| height.unwrap_or(slider.height) != T::zero());
         *preload_line == PreloadLine::Pressed && has_two_faces && *preload != [T::zero(); 2]
     }
 

@@ -126,6 +126,7 @@ impl Mechanism {
             (slider.is_disc() || slider.round.is_some(), "a disc"),
             (slider.loose, "a loose guide"),
             (!slider.apart.is_empty(), "a contact that is apart from its face"),
+            (contacts().any(|contact| contact.opens), "a contact that may lift off"),
             (contacts().any(|contact| contact.face.is_some()), "a press fit"),
             (
                 leans && contacts().any(|contact| contact.misalignment_law.is_some()),

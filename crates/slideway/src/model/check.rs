@@ -247,7 +247,8 @@ impl Model {
             };
             of_kind || joint.carries.is_some()
         };
-        let contact = |contact: &Contact| contact.aside != [None; 2] || contact.normal.is_some();
+        let contact =
+            |contact: &Contact| contact.aside != [None; 2] || contact.normal.or(contact.height).is_some();
         let load = |load: &super::Load| match &load.kind {
             LoadKind::Force { at, along_z, .. } => at.z.or(*along_z).is_some(),
             LoadKind::Torque { tilt, .. } => tilt.is_some(),

@@ -267,6 +267,9 @@ pub(super) struct ContactTable {
     /// How far it is out of the drawing. Default: 0.
     #[cfg_attr(test, schemars(skip))]
     pub(super) z: Option<Quantity>,
+    /// Distance of its two faces along its normal. Default: that of the joint, 0 where the normal leans out of the drawing.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) height: Option<Quantity>,
     /// Direction of its normal in the cross-section, an angle from n towards z: "90 deg" carries along z. Default: 0.
     #[cfg_attr(test, schemars(skip))]
     pub(super) normal: Option<Quantity>,

@@ -341,6 +341,8 @@ pub struct Contact {
     pub aside: [Option<FormulaId>; 2],
     /// The angle of its normal from n towards z.
     pub normal: Option<FormulaId>,
+    /// The distance of its faces along its normal; nothing means that of the joint, or zero where its normal leans.
+    pub height: Option<FormulaId>,
     /// Part with which it travels: block or guide.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.

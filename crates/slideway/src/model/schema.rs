@@ -133,6 +133,8 @@ struct SectionTable {
     aside: Option<Quantity>,
     /// How far it is out of the drawing. Default: 0.
     z: Option<Quantity>,
+    /// Distance of its two faces along its normal. Default: that of the joint, 0 where the normal leans out of the drawing.
+    height: Option<Quantity>,
     /// Direction of its normal in the cross-section, an angle from n towards z: "90 deg" carries along z. Default: 0.
     normal: Option<Quantity>,
 }

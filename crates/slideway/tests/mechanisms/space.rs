@@ -378,8 +378,8 @@ impl Turntable {
         let place = |[x, y, z]: [f64; 3]| format!("[{x}, {y}, {z}]");
         let table = |one: &Pressed| {
             format!(
-                "aside = {}, z = {}, normal = \"{} deg\", mu = {{ plus = {}, minus = {} }}",
-                one.aside, one.z, one.phi, one.mu[0], one.mu[1]
+                "aside = {}, z = {}, height = {}, normal = \"{} deg\", mu = {{ plus = {}, minus = {} }}",
+                one.aside, one.z, self.height, one.phi, one.mu[0], one.mu[1]
             )
         };
         let supports = self.contacts[2..].iter().zip(["a", "b", "c"]);
@@ -394,7 +394,7 @@ impl Turntable {
              centre_of_mass = \"C\"\nproducts_of_inertia = [{dx}, {dy}]\n\
              [joints.pivot]\ntype = \"hinge\"\nbetween = [\"table.O\", \"ground.O\"]\n\
              [joints.g]\ntype = \"block_slider\"\nblock = \"carriage\"\nguide = \"table\"\nat = [{x}, {y}]\n\
-             along = \"{angle} deg\"\nlength = 0.3\nheight = {height}\nmu = 0\nfront = {{ {front} }}\nrear = {{ {rear} }}\n\
+             along = \"{angle} deg\"\nlength = 0.3\nmu = 0\nfront = {{ {front} }}\nrear = {{ {rear} }}\n\
              supports = {{ {supports} }}\n\
              [loads.f]\ntype = \"force\"\nat = \"carriage.L\"\ncomponents = {force}\n\
              [loads.m]\ntype = \"torque\"\nbody = \"carriage\"\nmoments = {moments}\n\
@@ -411,7 +411,6 @@ impl Turntable {
             x = self.at[0],
             y = self.at[1],
             angle = self.angle,
-            height = self.height,
             front = table(&self.contacts[0]),
             rear = table(&self.contacts[1]),
             supports = supports.collect::<Vec<_>>().join(", "),

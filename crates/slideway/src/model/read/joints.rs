@@ -208,7 +208,9 @@ impl Reader<'_> {
                 read(&table.z, of("distance along z", Dimension::LENGTH)),
             ];
             let normal = read(&table.normal, of("normal", Dimension::ANGLE));
-            contacts.push(Contact { offset, aside, normal, ..self.contact(friction, contact, name, span) });
+            let height = read(&table.height, of("height", Dimension::LENGTH).not_negative());
+            let rest = self.contact(friction, contact, name, span);
+            contacts.push(Contact { offset, aside, normal, height, ..rest });
         }
         contacts
     }
@@ -403,6 +405,7 @@ impl Reader<'_> {
             offset: None,
             aside: [None; 2],
             normal: None,
+            height: None,
             stiffness: friction.stiffness,
             play: friction.play,
             misalignment: friction.misalignment,
