@@ -469,6 +469,11 @@ pub enum FaultKind {
     InSpace { question: &'static str },
     #[error("{joint}: {what} is not known in space")]
     JointInSpace { joint: String, what: &'static str },
+    #[error(
+        "what {} carry out of the drawing is not determined: {excess} of their reactions {} too many",
+        listed(joints), if *excess == 1 { "is" } else { "are" }
+    )]
+    CarriedTwice { joints: Vec<String>, excess: usize },
     #[error("nothing keeps {body} from {motion}")]
     NotCarried { body: String, motion: String },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
@@ -613,7 +618,7 @@ impl FaultKind {
     pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
         self.hint_of_values(face)
             .or_else(|| self.hint_of_face(face))
-            .or_else(|| self.fixed_hint().map(str::to_owned))
+            .or_else(|| self.hint_in_space().or_else(|| self.fixed_hint()).map(str::to_owned))
     }
 
     /// Hints that depend on the values.
@@ -664,14 +669,6 @@ impl FaultKind {
             ),
             Self::LiftsWithoutInertia { .. } => Some(
                 "give mass to the bodies that nothing else holds".to_owned(),
-            ),
-            Self::NotCarried { .. } => Some(
-                "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`"
-                    .to_owned(),
-            ),
-            Self::JointInSpace { .. } => Some(
-                "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `carries`, `moments`, `products_of_inertia`"
-                    .to_owned(),
             ),
             Self::OffFace { .. } => Some("draw it where it touches its face; what is apart is `closed = false`".to_owned()),
             Self::Penetration { .. } => Some(
@@ -790,6 +787,22 @@ impl FaultKind {
     pub fn with_hint(&self) -> String {
         let hint = self.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
         format!("{self}{hint}")
+    }
+
+    /// Hints about joints in space.
+    fn hint_in_space(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NotCarried { .. } => {
+                "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`"
+            }
+            Self::CarriedTwice { .. } => {
+                "say which of them carry less: of hinges `carries = \"z\"` (a ball), `\"tilt\"` (a cylinder) or `\"nothing\"`, of sliding joints fewer of `[\"z\", \"roll\", \"pitch\"]`"
+            }
+            Self::JointInSpace { .. } => {
+                "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `carries`, `moments`, `products_of_inertia`"
+            }
+            _ => return None,
+        })
     }
 
     /// Hints that do not depend on the values.

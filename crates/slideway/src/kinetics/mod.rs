@@ -153,7 +153,7 @@ impl Layout {
 
     /// Whether an acceleration is one of rotation.
     pub(crate) fn is_rotation(&self, acceleration: usize) -> bool {
-        if acceleration < 3 * self.bodies { acceleration % 3 == 2 } else { acceleration % 3 != 0 }
+        if acceleration < 3 * self.bodies { acceleration % 3 == 2 } else { !acceleration.is_multiple_of(3) }
     }
 
     /// Index of a reaction, if the mechanism has it.

@@ -73,12 +73,13 @@ impl Mechanism {
             self.reaction_rows().into_iter().unzip();
         let excess =
             |rows: &[Row], columns: usize| (rows.len() + self.coordinates.len()).saturating_sub(columns);
-        let positions = self.position_rows();
-        let of_positions = excess(&positions, 3 * self.bodies.len());
         let of_reactions = excess(&reactions, self.accelerations());
-        if of_reactions == 0 && (of_positions == 0 || self.space.is_none()) {
+        // In space what is too much for the plane may carry out of it.
+        if of_reactions == 0 && self.space.is_none() {
             return Excess::default();
         }
+        let positions = self.position_rows();
+        let of_positions = excess(&positions, 3 * self.bodies.len());
         let left_out = dependent(&positions).into_iter().map(|(row, _)| row).take(of_positions).collect();
         // Of both faces of a press fit one is always in excess, while other rows may be so in the drawing alone.
         let is_second_face = |row: usize| {

@@ -105,6 +105,18 @@ impl Mechanism {
         }
     }
 
+    /// Refuses joints that carry more out of the plane without friction than is determined, as in a closed loop.
+    ///
+    /// # Errors
+    /// A fault that names the joints.
+    pub(crate) fn check_carried_once(&self) -> Result<(), Faults> {
+        let carry = |joint: &&Joint| (0..3).any(|component| self.carries(joint, component));
+        let joints: Vec<&Joint> = self.joints.iter().filter(carry).collect();
+        let (Some(first), excess @ 1..) = (joints.first(), self.excess.of_hinges) else { return Ok(()) };
+        let names = joints.iter().map(|joint| joint.name.to_string()).collect();
+        Err(Fault::new(FaultKind::CarriedTwice { joints: names, excess }, first.place.clone()).into())
+    }
+
     /// What of a joint is not known in space, if something is not.
     fn not_in_space(&self, index: usize, joint: &Joint) -> Option<&'static str> {
         match &joint.kind {
@@ -150,13 +162,13 @@ impl Mechanism {
         let of_body = |body: usize| motions.rows(3 * body, 3);
         let greatest = (0..bodies).map(|body| of_body(body).norm()).fold(0.0, f64::max);
         let body = (0..bodies).find(|body| of_body(*body).norm() >= 0.5 * greatest)?;
-        let motion = self.motion_in_words(Frame::Body(crate::ids::BodyId(body)), of_body(body).into_owned());
+        let motion = self.motion_in_words(Frame::Body(crate::ids::BodyId(body)), &of_body(body).into_owned());
         let Body { name, place, .. } = &self.bodies[body];
         Some(Fault::new(FaultKind::NotCarried { body: name.to_string(), motion }, place.clone()))
     }
 
     /// Says what a body can do, from motions along z and about x and y, one in each column.
-    fn motion_in_words(&self, frame: Frame, motions: nalgebra::DMatrix<f64>) -> String {
+    fn motion_in_words(&self, frame: Frame, motions: &DMatrix<f64>) -> String {
         let found = motions.clone().svd(true, false);
         let values = &found.singular_values;
         let is_one = values.iter().filter(|value| **value > ROUNDING * values.amax()).count() == 1;

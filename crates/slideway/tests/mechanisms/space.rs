@@ -298,6 +298,55 @@ fn what_is_not_carried_is_named() {
     assert!(faults.sorted().iter().any(|fault| matches!(fault.kind, FaultKind::NotCarried { .. })));
 }
 
+/// A closed loop has three reactions too many (theory of loads in space, section 2); with hinges that carry less it moves as in
+/// the plane.
+#[test]
+fn a_closed_loop_carries_too_much() {
+    let body = |name: &str, from: &str, to: &str| {
+        format!(
+            "[bodies.{name}]\npoints = [\"{from}\", \"{to}\"]\nmass = 1\nshape = {{ bar = [\"{from}\", \"{to}\"] }}\n"
+        )
+    };
+    let hinge = |name: &str, first: &str, second: &str, carries: &str| {
+        format!(
+            "[joints.{name}]\ntype = \"hinge\"\nbetween = [\"{first}.{name}\", \"{second}.{name}\"]\ncarries = \"{carries}\"\n"
+        )
+    };
+    let four_bar = |carries: [&str; 4]| {
+        let hinges = [
+            ("A", "crank", "ground"),
+            ("B", "crank", "coupler"),
+            ("C", "coupler", "rocker"),
+            ("D", "rocker", "ground"),
+        ];
+        let hinges = hinges
+            .into_iter()
+            .zip(carries)
+            .map(|((name, first, second), one)| hinge(name, first, second, one));
+        "gravity = [0, -9.81, 2]\n[points]\nA = [0, 0]\nB = [0.1, 0.2]\nC = [0.4, 0.25]\nD = [0.5, 0]\n"
+            .to_owned()
+            + &body("crank", "A", "B")
+            + &body("coupler", "B", "C")
+            + &body("rocker", "C", "D")
+            + &hinges.collect::<String>()
+            + "[coordinates.phi]\nrotation = \"crank\"\nrate = 1\n"
+    };
+    let message = |carries: [&str; 4]| try_report_on(&four_bar(carries)).unwrap_err().to_string();
+    assert!(message(["all"; 4]).contains("3 of their reactions are too many"), "{}", message(["all"; 4]));
+    let open = ["all", "all", "nothing", "all"];
+    let report = report_on(&four_bar(open));
+    let planar = four_bar(open)
+        .replace(", 2]", "]")
+        .replace("carries = \"all\"\n", "")
+        .replace("carries = \"nothing\"\n", "");
+    let [planar, report] =
+        [report_on(&planar), report].map(|report| report.solutions[0].coordinates[0].acceleration);
+    assert!(close(report, planar, planar.abs()), "{report} {planar}");
+    // The coupler turns about the line of its hinges.
+    let line = message(["all", "z", "z", "all"]);
+    assert!(line.contains("nothing keeps coupler from turning about a line in the drawing"), "{line}");
+}
+
 /// Numbers that look random, from 0 to 1.
 struct Random(u64);
 

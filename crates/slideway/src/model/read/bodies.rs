@@ -180,9 +180,9 @@ impl Reader<'_> {
             [Some(first), Some(second)] => self.fault(FaultKind::Both { owner, first, second }, span),
             [Some(_), None] => {}
         }
-        if let Some(ends) = &shape.bar {
+        if let Some([from, to]) = &shape.bar {
             let what = format!("the end of {name}");
-            Moment::Bar([self.place(&ends[0], &what), self.place(&ends[1], &what)])
+            Moment::Bar([self.place(from, &what), self.place(to, &what)])
         } else if let Some([width, height]) = &shape.rectangle {
             Moment::Rectangle([self.formula(width, size("width")), self.formula(height, size("height"))])
         } else if let Some([width, height, depth]) = &shape.cuboid {

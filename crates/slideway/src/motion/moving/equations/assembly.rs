@@ -112,7 +112,7 @@ impl Equations<'_> {
             }
             for wrench in effort_forces(self.mechanism, &self.configuration, &drive.effort) {
                 wrench.add_to(self.mechanism, &self.configuration, |row, value| {
-                    self.system.add(row, effort, -value)
+                    self.system.add(row, effort, -value);
                 });
             }
             let prescribed = self.configuration.quantity(self.mechanism, drive.acceleration);
