@@ -465,6 +465,17 @@ pub enum FaultKind {
     GuidesDoNotFit { joint: String, gap: String },
     #[error("the position is singular: {} lost there, so the reactions are indeterminate", constraints(*lost))]
     SingularPosition { lost: usize, joints: Vec<String> },
+    #[error("{question} is not computed for loads in space")]
+    InSpace { question: &'static str },
+    #[error("{joint}: {what} is not known in space")]
+    JointInSpace { joint: String, what: &'static str },
+    #[error(
+        "what {} carry out of the drawing is not determined: {excess} of their reactions {} too many",
+        listed(joints), if *excess == 1 { "is" } else { "are" }
+    )]
+    CarriedTwice { joints: Vec<String>, excess: usize },
+    #[error("nothing keeps {body} from {motion}")]
+    NotCarried { body: String, motion: String },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
     NoFreedom,
     #[error("{} of freedom, but {}", degrees(*degrees_of_freedom), coordinates(*chosen))]
@@ -607,7 +618,7 @@ impl FaultKind {
     pub fn hint_for(&self, face: &dyn Face) -> Option<String> {
         self.hint_of_values(face)
             .or_else(|| self.hint_of_face(face))
-            .or_else(|| self.fixed_hint().map(str::to_owned))
+            .or_else(|| self.hint_in_space().or_else(|| self.fixed_hint()).map(str::to_owned))
     }
 
     /// Hints that depend on the values.
@@ -708,6 +719,10 @@ impl FaultKind {
     /// Hints that name options and questions.
     fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
         Some(match self {
+            Self::InSpace { .. } => format!(
+                "ask `{}`, `limits`, `drive`, `size`, `sweep` or `map` at instants of the motion",
+                face.question("solve")
+            ),
             Self::SharedLoad { .. } => format!(
                 "give them `play` and `loose = true`, and no stiffness: then each face is a contact by itself; or ask `{}` at instants of the motion, `sweep` along it, or `hold` where it stops",
                 face.question("solve")
@@ -772,6 +787,22 @@ impl FaultKind {
     pub fn with_hint(&self) -> String {
         let hint = self.hint().map_or_else(String::new, |hint| format!(" ({hint})"));
         format!("{self}{hint}")
+    }
+
+    /// Hints about joints in space.
+    fn hint_in_space(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::NotCarried { .. } => {
+                "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`"
+            }
+            Self::CarriedTwice { .. } => {
+                "say which of them carry less: of hinges `carries = \"z\"` (a ball), `\"tilt\"` (a cylinder) or `\"nothing\"`, of sliding joints fewer of `[\"z\", \"roll\", \"pitch\"]`"
+            }
+            Self::JointInSpace { .. } => {
+                "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `carries`, `moments`, `products_of_inertia`"
+            }
+            _ => return None,
+        })
     }
 
     /// Hints that do not depend on the values.

@@ -44,6 +44,9 @@ pub(super) fn of_solutions(
     state: (&Mechanism, &Configuration),
     report: &SolveReport,
 ) -> Vec<OneFaceHint> {
+    if state.0.space.is_some() {
+        return Vec::new();
+    }
     let states = report.solutions.iter().chain(&report.preload_gap_states);
     let forces = |solution: &Solution| solution.contacts.iter().map(|one| [one.normal_force; 2]).collect();
     let states: Vec<NormalForces> = states.map(forces).collect();

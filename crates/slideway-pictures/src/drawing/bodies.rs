@@ -196,7 +196,7 @@ impl Painter<'_> {
         let frame = Frame::Body(body);
         if let Some(corners) = looks::corners(self.mechanism, body) {
             let corners = corners.into_iter();
-            return Some(corners.map(|position| self.attached(&Attachment { frame, position })).collect());
+            return Some(corners.map(|position| self.attached(&Attachment::new(frame, position))).collect());
         }
         match self.mechanism.bodies[body.index()].shape? {
             Shape::Disc(radius) => Some(disc(self.centre(body), radius * self.view.scale)),
@@ -249,7 +249,7 @@ impl Painter<'_> {
         let places = self.places(body);
         match self.mechanism.bodies[body.index()].shape {
             Some(Shape::Bar(ends)) => {
-                let ends = ends.map(|position| self.attached(&Attachment { frame, position }));
+                let ends = ends.map(|position| self.attached(&Attachment::new(frame, position)));
                 let half = self.half_width(body, ends);
                 let mut bars = vec![capsule(ends[0], ends[1], half)];
                 for place in places {
@@ -306,7 +306,7 @@ impl Painter<'_> {
                 JointKind::Hinge(ends) => places.extend(ends.iter().filter(|end| end.frame == frame)),
                 JointKind::Slider(slider) => {
                     if slider.block == frame || (slider.guide == frame && slider.kind != SliderKind::Pin) {
-                        places.push(Attachment { frame, position: slider.at });
+                        places.push(Attachment::new(frame, slider.at));
                     }
                 }
             }
@@ -322,9 +322,7 @@ impl Painter<'_> {
         }
         let properties = &self.mechanism.bodies[body.index()];
         if properties.shape.is_none() {
-            places.extend(
-                properties.points.iter().map(|(_, position)| Attachment { frame, position: *position }),
-            );
+            places.extend(properties.points.iter().map(|(_, position)| Attachment::new(frame, *position)));
         }
         places.iter().map(|place| self.attached(place)).collect()
     }

@@ -151,6 +151,9 @@ impl Painter<'_> {
     /// The place of a face (`side` is 1 where the block is pressed towards +n, -1 where towards -n) at a contact,
     /// as it is drawn: on whatever carries the contact; in the middle of that if it is not pressed at all.
     pub(super) fn face(&self, slide: &Slide, contact: ContactId, side: f64) -> Point {
+        if self.mechanism.contacts[contact.index()].lean.is_some() {
+            return self.contact_place(contact);
+        }
         let is_of_block = self.mechanism.contacts[contact.index()].carried_by == CarriedBy::Block;
         let carrier = match (is_of_block, slide.is_disc) {
             (false, _) => slide.guide,

@@ -78,10 +78,17 @@ impl Painter<'_> {
             self.line(Class::Leader, vec![middle, face]);
         }
         let direction = slide.guide.across * (forces.normal.signum() * slide.action());
-        let length = forces.normal.abs() * scale;
+        let in_plane = self.mechanism.contacts[contact.index()].lean.map_or(1.0, |[cos, _]| cos);
+        let length = forces.normal.abs() * scale * in_plane;
         // It presses from outside what it acts on if that is the inner part, else from inside.
         let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
         let text = self.size_of_force(forces.normal, forces.spread[0]);
+        if in_plane == 0.0 {
+            // It points out of the drawing, or into it.
+            self.circle(Class::Reaction, face, DOT);
+            let ends = [face, face + slide.guide.along * DOT];
+            return self.value_along(Class::Reaction, text, ends, slide.guide.along);
+        }
         self.arrow_of_force(Class::Reaction, (face, is_on_inner), direction * length, text);
     }
 
@@ -120,8 +127,7 @@ impl Painter<'_> {
             let Some(slide) = self.slide(joint) else { continue };
             let rim = if slide.is_disc { 0.5 * slide.height } else { 0.0 };
             for ([gap, _], contact) in self.actual.gaps(mechanism, slider).zip(&slider.apart) {
-                let corner =
-                    self.attached(&Attachment { frame: slider.block, position: contact.position(slider) });
+                let corner = self.attached(&Attachment::new(slider.block, contact.position(slider)));
                 let from = corner - slide.guide.across * rim;
                 let to = from - slide.guide.across * (gap * self.view.scale);
                 self.line(Class::Leader, vec![from, to]);

@@ -351,7 +351,7 @@ impl Painter<'_> {
         for (index, body) in mechanism.bodies.iter().enumerate() {
             let weight = mechanism.gravity * body.mass;
             if weight.norm() > 0.0 {
-                let at = Attachment { frame: Frame::Body(BodyId(index)), position: body.centre_of_mass };
+                let at = Attachment::new(Frame::Body(BodyId(index)), body.centre_of_mass);
                 self.force(Class::Load, at, weight, format!("{name} {}", self.shown(weight.norm(), "N")));
             }
         }

@@ -142,7 +142,7 @@ impl Play<'_> {
     fn displacement(&self, moved: &Configuration, slider: &Slider, contact: ContactId) -> f64 {
         let place = moved.contact(self.mechanism, contact).point;
         let across = |frame, point| {
-            let middle = moved.position(self.mechanism, &Attachment { frame, position: slider.at });
+            let middle = moved.position(self.mechanism, &Attachment::new(frame, slider.at));
             rot90(moved.direction(frame, slider.tangent)).dot(&(point - middle))
         };
         match self.mechanism.contacts[contact.index()].carried_by {

@@ -326,7 +326,7 @@ impl Painter<'_> {
         }
         let Some(Shape::Bar(ends)) = self.mechanism.bodies[body.index()].shape else { return None };
         let along = ends.map(|position| {
-            (self.attached(&Attachment { frame, position }) - block.origin).dot(&block.along)
+            (self.attached(&Attachment::new(frame, position)) - block.origin).dot(&block.along)
         });
         Some([-along[0].min(along[1]), along[0].max(along[1])])
     }
@@ -336,7 +336,7 @@ impl Painter<'_> {
     fn local(&self, frame: Frame, slider: &Slider, lift: f64) -> Local {
         // A round guide is where its block is.
         let of_block = if slider.round.is_some() { slider.block } else { frame };
-        let middle = Attachment { frame: of_block, position: slider.at };
+        let middle = Attachment::new(of_block, slider.at);
         let tangent = match slider.round {
             Some(_) => self.configuration.slide(self.mechanism, slider).tangent,
             None => self.configuration.direction(frame, slider.tangent),

@@ -121,7 +121,7 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
             continue;
         }
         let centre = configuration.poses[index].position;
-        let place = |position| configuration.position(mechanism, &Attachment { frame, position });
+        let place = |position| configuration.position(mechanism, &Attachment::new(frame, position));
         if body.shape.is_none() || !body.outline.is_empty() {
             let corners = corners(mechanism, BodyId(index)).unwrap_or_default();
             places.extend(corners.into_iter().map(place));
@@ -177,7 +177,7 @@ fn places(mechanism: &Mechanism, configuration: &Configuration) -> Vec<Vector2<f
 /// Corners of the block, its contacts, and where faces are of which it is apart.
 fn slider_places(mechanism: &Mechanism, configuration: &Configuration, slider: &Slider) -> Vec<Vector2<f64>> {
     let tangent = configuration.direction(slider.block, slider.tangent);
-    let middle = configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at });
+    let middle = configuration.position(mechanism, &Attachment::new(slider.block, slider.at));
     let across = Vector2::new(-tangent.y, tangent.x) * (0.5 * slider.height);
     let half = tangent * (0.5 * slider.length);
     let contacts = slider.contacts.iter().map(|id: &ContactId| configuration.contact(mechanism, *id).point);
@@ -187,7 +187,7 @@ fn slider_places(mechanism: &Mechanism, configuration: &Configuration, slider: &
     let normal = configuration.slide(mechanism, slider).normal;
     let faces = configuration.gaps(mechanism, slider).zip(&slider.apart).map(|([gap, _], contact)| {
         let position = contact.position(slider);
-        configuration.position(mechanism, &Attachment { frame: slider.block, position }) - normal * gap
+        configuration.position(mechanism, &Attachment::new(slider.block, position)) - normal * gap
     });
     [middle + half + across, middle - half + across, middle + half - across, middle - half - across]
         .into_iter()

@@ -35,7 +35,7 @@ impl Inertia {
         let lengths: Vec<f64> = equations
             .massless_accelerations()
             .iter()
-            .map(|index| if index % 3 == 2 { length } else { 1.0 })
+            .map(|index| if equations.layout.is_rotation(*index) { length } else { 1.0 })
             .collect();
         let [motions, tests] = equations.massless_motions(hinges);
         let [(right_gaps, motions), (left_gaps, tests)] = [orthonormal(motions)?, orthonormal(tests)?];

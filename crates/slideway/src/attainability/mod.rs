@@ -95,6 +95,12 @@ impl ElasticJoints {
         let inertia = if size > MOST_CONTACTS {
             let what = if has_hinges { "components of normal and hinge forces" } else { "contacts" };
             Err((Verdict::NotComputed, format!("more than {MOST_CONTACTS} {what}")))
+        } else if let Some(body) = mechanism.unknown_tilt() {
+            let shape = "give its `shape = { box = [..] }`";
+            Err((
+                Verdict::NotComputed,
+                format!("the inertia of {body} out of the drawing is not known: {shape}"),
+            ))
         } else {
             let frictionless = match &shared {
                 Some(shared) => shared.gaps.transpose(),

@@ -131,14 +131,20 @@ impl CheckReport {
 }
 
 fn mobility_summary(mechanism: &Mechanism, mobility: &Mobility) -> MobilitySummary {
-    let redundancy = mobility.redundancy.as_ref();
+    // In space what is too much for the plane may carry out of it.
+    let in_space = mechanism.space.is_some();
+    let redundancy =
+        mobility.redundancy.as_ref().filter(|_| !in_space || !mechanism.excess.contacts.is_empty());
+    let is_redundant =
+        if in_space { !mechanism.excess.contacts.is_empty() } else { mechanism.is_redundant() };
+    let determinate = redundancy.is_none() && !is_redundant;
     let name = |joint: &crate::ids::JointId| mechanism.joints[joint.index()].name.to_string();
     MobilitySummary {
         body_coordinates: mobility.body_coordinates,
         constraints: mobility.constraints,
         independent: mobility.independent,
         degrees_of_freedom: mobility.degrees_of_freedom(),
-        determinate: redundancy.is_none() && !mechanism.is_redundant(),
+        determinate,
         singular_position: redundancy.is_some_and(|redundancy| redundancy.only_here),
         joints_in_excess: redundancy.map_or(vec![], |r| r.joints.iter().map(name).collect()),
         suggestion: redundancy.and_then(|redundancy| redundancy.suggestion.clone()),

@@ -57,7 +57,10 @@ fn check_excess(mechanism: &Mechanism, poses: &[Pose]) -> Result<(), Faults> {
     let equations = JointEquations::of_joints(mechanism, poses);
     if mechanism.excess.of_hinges > 0 || mobility.redundancy.as_ref().is_some_and(|excess| excess.only_here) {
         let kind = mobility.fault_without_sharing(mechanism);
-        return kind.map_or(Ok(()), |kind| Err(redundancy_fault(mechanism, &mobility, kind).into()));
+        return match kind {
+            Some(kind) => Err(redundancy_fault(mechanism, &mobility, kind).into()),
+            None => mechanism.check_carried_once(),
+        };
     }
     match widest_gap(&equations).filter(|gap| gap.relative > AT_END) {
         None => Ok(()),

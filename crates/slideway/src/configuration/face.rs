@@ -19,7 +19,7 @@ impl Configuration {
     ) -> f64 {
         let position = contact.position(slider);
         let [block, guide] = [slider.block, slider.guide]
-            .map(|frame| self.position(mechanism, &Attachment { frame, position }));
+            .map(|frame| self.position(mechanism, &Attachment { frame, position, z: slider.z }));
         let along = self.direction(slider.guide, slider.tangent).dot(&(block - guide));
         let ([least, greatest], place) = (slider.face_ends(), along + contact.offset);
         if end < 0.0 { place - least } else { greatest - place }

@@ -237,7 +237,7 @@ impl<'m, T: Real> Rows<'m, T> {
                     self.want(wanted);
                 }
                 CoordinateKind::Displacement(point, axis) => {
-                    let drawn = Attachment { frame: Frame::Ground, position: point.position };
+                    let drawn = Attachment { frame: Frame::Ground, ..point };
                     self.distance(None, [&point, &drawn], axis, None);
                     self.want(wanted / self.size());
                 }

@@ -126,12 +126,23 @@ pub struct ContactGeometry<T = f64> {
     pub point: Vector2<T>,
     /// Tangent u of the guide.
     pub tangent: Vector2<T>,
-    /// Normal n = rot90(u).
+    /// How far P is out of the drawing (m).
+    pub z: T,
+    /// Normal n = rot90(u); of a contact whose normal leans out of the drawing that normal's part in it.
     pub normal: Vector2<T>,
+    /// Cosine and sine of the angle of the normal from n towards z, if it leans.
+    pub lean: Option<[T; 2]>,
     /// Velocity of the block's material point against the guide's where they touch, along u (m/s).
     pub sliding_velocity: T,
     /// That of both at P, which is the centre of a disc.
     pub(crate) velocity_at_point: T,
+}
+
+impl<T: Real> ContactGeometry<T> {
+    /// The part of its normal out of the drawing.
+    pub(crate) fn along_z(&self) -> T {
+        self.lean.map_or(T::zero(), |[_, sin]| sin)
+    }
 }
 
 impl Configuration {
@@ -311,7 +322,14 @@ impl<T: Real> Configuration<T> {
             CarriedBy::Block => slider.block,
             CarriedBy::Guide => slider.guide,
         };
-        self.touching(mechanism, slider, (frame, contact.position(slider)))
+        let z = slider.z + contact.aside[1];
+        let geometry = self.touching(mechanism, slider, (frame, contact.position(slider)));
+        match contact.lean {
+            None => ContactGeometry { z, ..geometry },
+            Some([cos, _]) => {
+                ContactGeometry { z, normal: geometry.normal * cos, lean: contact.lean, ..geometry }
+            }
+        }
     }
 
     /// A contact of a sliding joint at a place of the drawing that moves with a frame.
@@ -322,7 +340,7 @@ impl<T: Real> Configuration<T> {
         (frame, drawn): (Frame, Vector2<T>),
     ) -> ContactGeometry<T> {
         let tangent = self.tangent(mechanism, slider);
-        let point = self.position(mechanism, &Attachment { frame, position: drawn });
+        let point = self.position(mechanism, &Attachment { frame, position: drawn, z: slider.z });
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
         let velocity_at_point = tangent.dot(&relative);
         let mut sliding_velocity = velocity_at_point;
@@ -331,7 +349,15 @@ impl<T: Real> Configuration<T> {
             sliding_velocity += spin * (slider.height / T::exactly(2.0));
         }
         let normal = rot90(tangent);
-        ContactGeometry { point, tangent, normal, sliding_velocity, velocity_at_point }
+        ContactGeometry {
+            point,
+            tangent,
+            z: slider.z,
+            normal,
+            lean: None,
+            sliding_velocity,
+            velocity_at_point,
+        }
     }
 
     /// The tangent u of a guide where its block is.
@@ -367,8 +393,8 @@ impl<T: Real> Configuration<T> {
     ) -> [T; 2] {
         let position = contact.position(slider);
         let normal = rot90(self.tangent(mechanism, slider));
-        let place = self.position(mechanism, &Attachment { frame: slider.block, position });
-        let opposite = self.position(mechanism, &Attachment { frame: slider.guide, position });
+        let [place, opposite] = [slider.block, slider.guide]
+            .map(|frame| self.position(mechanism, &Attachment { frame, position, z: slider.z }));
         let moved = match &slider.round {
             None => normal.dot(&(place - opposite)),
             Some(round) => {
@@ -456,12 +482,12 @@ fn moved<T: Real>(mechanism: &Mechanism<T>, poses: &[Pose<T>], point: &Attachmen
 
 /// The middle of the block as a point of the block, and of the guide.
 fn middle_points<T: Real>(slider: &Slider<T>) -> [Attachment<T>; 2] {
-    [slider.block, slider.guide].map(|frame| Attachment { frame, position: slider.at })
+    [slider.block, slider.guide].map(|frame| Attachment { frame, position: slider.at, z: slider.z })
 }
 
 /// The centre of a disc as a point of the block, and that of its round face as one of the guide.
 fn round_ends<T: Real>(slider: &Slider<T>, round: &Round<T>) -> [Attachment<T>; 2] {
-    [Attachment { frame: slider.block, position: slider.at }, slider.centre_of(round)]
+    [Attachment { frame: slider.block, position: slider.at, z: slider.z }, slider.centre_of(round)]
 }
 
 /// The unit of a coordinate.

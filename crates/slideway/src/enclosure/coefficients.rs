@@ -100,11 +100,17 @@ impl Coefficients<'_> {
         let column = |at: usize| DVector::from_fn(rows, |row, _| entry(row, at, 1.0));
         let self_stress = self.self_stresses(answers, forces);
         let positive = DMatrix::from_fn(rows, contacts, |row, k| entry(row, 1 + k, 1.0));
-        let mut negative = self.negative_versions(positive.clone(), &self_stress);
-        for (row, couple) in (forces..rows).zip(couples) {
-            // At the other face the slider's own friction turns by h more the one way, and its couple the other way.
-            negative[(row, couple.contact)] -= couple.height;
-        }
+        let negative = if self.mechanism.space.is_some() {
+            let first = self.first_other_face();
+            DMatrix::from_fn(rows, contacts, |row, k| entry(row, first + k, 1.0))
+        } else {
+            let mut negative = self.negative_versions(positive.clone(), &self_stress);
+            for (row, couple) in (forces..rows).zip(couples) {
+                // At the other face the slider's own friction turns by h more the one way, and its couple the other way.
+                negative[(row, couple.contact)] -= couple.height;
+            }
+            negative
+        };
         let eta = BySide { positive, negative };
         let [mu, preload] = friction_of_contacts(self.mechanism, &|_| true);
         let couple = |hinge: &RubbingHinge| (answers.column(hinge.column).into_owned(), hinge.leverage);
@@ -127,6 +133,12 @@ impl Coefficients<'_> {
         layout.one_sided().iter().copied().zip(self.first_couple() + self.equations.couples.len()..)
     }
 
+    /// The first column of the answers to a unit friction at the other face of each contact, in space alone: there the couple
+    /// between both faces of a contact leans with its normal, and anything may take it up.
+    fn first_other_face(&self) -> usize {
+        self.first_couple() + self.equations.couples.len() + self.equations.layout.one_sided().len()
+    }
+
     /// The first column of the answers to a unit couple.
     fn first_couple(&self) -> usize {
         1 + self.mechanism.contacts.len() + self.equations.layout.cut().len()
@@ -134,8 +146,8 @@ impl Coefficients<'_> {
 
     /// All unknowns without friction (column 0), and what a unit friction of each contact adds to them at the
     /// face that is pressed when its normal force is positive, then what a unit normal force of each cut contact
-    /// adds, then a unit couple of each friction circle, then the opening of each contact that may lift off; none if the
-    /// equations are not proven to be regular.
+    /// adds, then a unit couple of each friction circle, then the opening of each contact that may lift off, and in space a
+    /// unit friction of each contact at its other face; none if the equations are not proven to be regular.
     pub(super) fn unknowns(&self, work: Work<'_>) -> Option<DMatrix<Interval>> {
         let Assembled { layout, matrix, load, friction, couples, .. } = self.equations;
         let (rows, columns) = equilibration(&matrix.map(Interval::middle));
@@ -145,6 +157,7 @@ impl Coefficients<'_> {
             .chain(&units)
             .chain(couples)
             .chain(&openings)
+            .chain(friction.iter().filter(|_| self.mechanism.space.is_some()).map(|faces| &faces[1]))
             .collect();
         let right = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             sides[column][row] * Interval::point(rows[row])
@@ -153,8 +166,9 @@ impl Coefficients<'_> {
         let mut unknowns = DMatrix::from_fn(load.len(), sides.len(), |row, column| {
             solution.entry(row, column) * Interval::point(columns[row])
         });
-        let first = sides.len() - openings.len();
-        let answers = (first..sides.len()).map(|column| unknowns.column(column).into_owned()).collect();
+        let first = self.first_couple() + couples.len();
+        let answers =
+            (first..first + openings.len()).map(|column| unknowns.column(column).into_owned()).collect();
         for (column, opening) in (first..).zip(layout.openings(answers)) {
             unknowns.set_column(column, &opening.answer);
         }
@@ -224,6 +238,9 @@ impl Coefficients<'_> {
         power[0] = self.equations.applied.iter().map(of_load).fold(Interval::ZERO, |sum, power| sum + power);
         for (k, contact) in self.equations.contacts.iter().enumerate() {
             power[1 + k] = -contact.sliding_velocity;
+            if self.mechanism.space.is_some() {
+                power[self.first_other_face() + k] = -contact.sliding_velocity;
+            }
         }
         for (index, circle) in self.mechanism.friction_circles.iter().enumerate() {
             power[self.first_couple() + index] = self.configuration.spin(self.mechanism, circle.joint);
@@ -239,8 +256,9 @@ impl Coefficients<'_> {
             let sum: f64 = terms.map(|(column, entry)| (*entry * unknown(column)).magnitude()).sum();
             sum + load[row].magnitude()
         };
-        let bodies = 0..self.mechanism.bodies.len();
-        bodies.flat_map(|body| [3 * body, 3 * body + 1]).map(forces).fold(0.0, f64::max)
+        let in_plane = (0..self.mechanism.bodies.len()).flat_map(|body| [3 * body, 3 * body + 1]);
+        let along_z = (3 * self.mechanism.bodies.len()..self.equations.layout.accelerations()).step_by(3);
+        in_plane.chain(along_z).map(forces).fold(0.0, f64::max)
     }
 
     /// The influence of friction at the other faces.

@@ -39,7 +39,7 @@ impl KineticEquations {
     /// The massless accelerations: indices of bodies' accelerations whose mass or moment of inertia is zero.
     pub(crate) fn massless_accelerations(&self) -> Vec<usize> {
         let matrix = self.factorization.matrix();
-        (0..3 * self.layout.bodies).filter(|&index| matrix[(index, index)] == 0.0).collect()
+        (0..self.layout.accelerations).filter(|&index| matrix[(index, index)] == 0.0).collect()
     }
 
     /// The motions without mass on which the elastic guides act: of `[G_r; C] x = 0`, and of the test motions
@@ -48,7 +48,7 @@ impl KineticEquations {
         let massless = self.massless_accelerations();
         let matrix = self.factorization.matrix();
         let normal = self.elastic_rows(hinges);
-        let first = 3 * self.layout.bodies;
+        let first = self.layout.accelerations;
         let efforts = first + self.layout.reactions.len();
         let rigid: Vec<usize> = (first..efforts).filter(|row| !normal.contains(row)).collect();
         [false, true].map(|test| {

@@ -4,7 +4,9 @@ use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, Frame};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length, rot90};
+use crate::mechanism::{
+    Attachment, Effort, Load, LoadKind, Mechanism, Pad, Quantity, length, length_in_space, rot90, tilting,
+};
 use nalgebra::Vector2;
 
 /// A force at a place, or a couple, on a frame.
@@ -18,19 +20,44 @@ pub struct Wrench<T = f64> {
     pub force: Vector2<T>,
     /// The couple (N m), counter-clockwise positive.
     pub couple: T,
+    /// How far the place is out of the drawing (m).
+    pub z: T,
+    /// The component of the force along z (N).
+    pub along_z: T,
+    /// The couples about x and y (N m).
+    pub tilt: Vector2<T>,
 }
 
 impl<T: Real> Wrench<T> {
-    fn force(frame: Frame, place: Vector2<T>, force: Vector2<T>) -> Self {
-        Self { frame, place, force, couple: T::zero() }
+    /// A force in the plane at a place of the drawing.
+    pub(crate) fn force(frame: Frame, place: Vector2<T>, force: Vector2<T>) -> Self {
+        let (couple, z, along_z) = (T::zero(), T::zero(), T::zero());
+        Self { frame, place, force, couple, z, along_z, tilt: Vector2::zeros() }
+    }
+
+    /// The same at a height, with a component along z.
+    pub(crate) fn in_space(self, z: T, along_z: T) -> Self {
+        Self { z, along_z, ..self }
     }
 
     pub(super) fn couple(frame: Frame, couple: T) -> Self {
-        Self { frame, place: Vector2::zeros(), force: Vector2::zeros(), couple }
+        Self { couple, ..Self::force(frame, Vector2::zeros(), Vector2::zeros()) }
     }
 
-    /// Adds it to the three equations of the body on which it acts.
-    pub(crate) fn add_to(&self, configuration: &Configuration<T>, mut add: impl FnMut(usize, T)) {
+    /// Adds it to the equations of the body on which it acts: three, six in space.
+    pub(crate) fn add_to(
+        &self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        mut add: impl FnMut(usize, T),
+    ) {
+        if let Some((first, z)) = mechanism.out_of_plane(self.frame) {
+            let arm = (configuration.arm(self.frame, self.place), self.z - z);
+            let about = tilting(arm, (self.force, self.along_z)) + self.tilt;
+            add(first, self.along_z);
+            add(first + 1, about.x);
+            add(first + 2, about.y);
+        }
         let Some(body) = self.frame.body() else { return };
         let row = 3 * body.index();
         let arm = configuration.arm(self.frame, self.place);
@@ -81,7 +108,10 @@ impl<T: Real> Applied<T> {
                 faults.push(fault);
             }
             let is_usual = |wrench: &Wrench<T>| {
-                [wrench.force.x, wrench.force.y, wrench.couple].iter().all(|part| part.magnitude() < GREATEST)
+                let Wrench { force, couple, along_z, tilt, .. } = wrench;
+                [force.x, force.y, *couple, *along_z, tilt.x, tilt.y]
+                    .iter()
+                    .all(|part| part.magnitude() < GREATEST)
             };
             if !loads.wrenches[first..].iter().all(is_usual) {
                 let kind = FaultKind::Overflow { quantity: format!("the load {}", load.name) };
@@ -124,8 +154,10 @@ pub(crate) fn unit_effort<T: Real>(
         Effort::Force { at, direction, turns, reaction } => {
             let direction = if turns { configuration.direction(at.frame, direction) } else { direction };
             let place = configuration.position(mechanism, &at);
-            let opposite = reaction.map(|frame| Wrench::force(frame, place, -direction));
-            [Some(Wrench::force(at.frame, place, direction)), opposite]
+            let on = |frame: Frame, force: Vector2<T>| {
+                Wrench::force(frame, place, force).in_space(at.z, T::zero())
+            };
+            [Some(on(at.frame, direction)), reaction.map(|frame| on(frame, -direction))]
         }
         Effort::Torque { body, reaction } => {
             let opposite = reaction.map(|frame| Wrench::couple(frame, -T::one()));
@@ -146,7 +178,11 @@ impl<T: Real> Loads<'_, T> {
         for (index, body) in self.mechanism.bodies.iter().enumerate() {
             let weight = self.mechanism.gravity * body.mass;
             let place = self.configuration.poses[index].position;
-            self.wrenches.push(Wrench::force(Frame::Body(BodyId(index)), place, weight));
+            let weight = Wrench::force(Frame::Body(BodyId(index)), place, weight);
+            self.wrenches.push(match &self.mechanism.space {
+                None => weight,
+                Some(space) => weight.in_space(space.bodies[index].z, space.gravity * body.mass),
+            });
         }
     }
 
@@ -156,21 +192,25 @@ impl<T: Real> Loads<'_, T> {
 
     fn load(&mut self, load: &Load<T>) -> Result<(), Fault> {
         match &load.kind {
-            LoadKind::Force { at, components, axes, turns, reaction } => {
+            LoadKind::Force { at, components, axes, along_z, turns, reaction } => {
                 let mut force = Vector2::zeros();
                 for (component, axis) in components.iter().zip(axes) {
                     let axis = if *turns { self.configuration.direction(at.frame, *axis) } else { *axis };
                     force += axis * self.quantity(*component)?;
                 }
                 let place = self.configuration.position(self.mechanism, at);
-                self.wrenches.push(Wrench::force(at.frame, place, force));
+                let along_z = self.quantity(*along_z)?;
+                self.wrenches.push(Wrench::force(at.frame, place, force).in_space(at.z, along_z));
                 if let Some(reaction) = reaction {
-                    self.wrenches.push(Wrench::force(*reaction, place, -force));
+                    self.wrenches.push(Wrench::force(*reaction, place, -force).in_space(at.z, -along_z));
                 }
             }
-            LoadKind::Torque { body, moment, reaction } => {
+            LoadKind::Torque { body, moment, tilt: [x, y], reaction } => {
                 let moment = self.quantity(*moment)?;
-                self.couples(*body, *reaction, moment);
+                let tilt = Vector2::new(self.quantity(*x)?, self.quantity(*y)?);
+                self.wrenches.push(Wrench { tilt, ..Wrench::couple(*body, moment) });
+                let opposite = |frame| Wrench { tilt: -tilt, ..Wrench::couple(frame, -moment) };
+                self.wrenches.extend(reaction.map(opposite));
             }
             LoadKind::Spring { between, stiffness, free_length } => {
                 let (stiffness, free_length) = (self.quantity(*stiffness)?, self.quantity(*free_length)?);
@@ -213,13 +253,25 @@ impl<T: Real> Loads<'_, T> {
     ) -> Result<(), Fault> {
         let [first, second] = self.places(between);
         let axis = second - first;
-        let pull = if free_length.is_zero() {
-            axis * stiffness
+        let rise = between[1].z - between[0].z;
+        let (pull, along_z) = if free_length.is_zero() {
+            (axis * stiffness, rise * stiffness)
         } else {
-            let tension = stiffness * (length(axis) - free_length);
-            if tension.is_zero() { Vector2::zeros() } else { direction(load, axis)? * tension }
+            let whole = length_in_space(axis, rise);
+            let tension = stiffness * (whole - free_length);
+            if tension.is_zero() {
+                (Vector2::zeros(), T::zero())
+            } else {
+                let of_length = |part: T| part / whole * tension;
+                check_length(load, whole)?;
+                if rise.is_zero() {
+                    (direction(load, axis)? * tension, T::zero())
+                } else {
+                    (axis.map(of_length), of_length(rise))
+                }
+            }
         };
-        self.pull(between, [first, second], pull);
+        self.pull(between, [first, second], (pull, along_z));
         Ok(())
     }
 
@@ -229,10 +281,18 @@ impl<T: Real> Loads<'_, T> {
             return Ok(());
         }
         let [first, second] = self.places(between);
-        let axis = direction(load, second - first)?;
+        let rise = between[1].z - between[0].z;
+        let (axis, along_z) = if rise.is_zero() {
+            (direction(load, second - first)?, T::zero())
+        } else {
+            let whole = length_in_space(second - first, rise);
+            check_length(load, whole)?;
+            ((second - first) / whole, rise / whole)
+        };
         let relative = self.configuration.velocity_at(between[1].frame, second)
             - self.configuration.velocity_at(between[0].frame, first);
-        self.pull(between, [first, second], axis * (damping * axis.dot(&relative)));
+        let tension = damping * axis.dot(&relative);
+        self.pull(between, [first, second], (axis * tension, along_z * tension));
         Ok(())
     }
 
@@ -244,10 +304,11 @@ impl<T: Real> Loads<'_, T> {
             Fault::new(kind, load.place.clone())
         })?;
         let push = self.configuration.direction(slider.guide, slider.tangent) * (-pad.sense() * force);
-        let middle = Attachment { frame: slider.block, position: slider.at };
+        let middle = Attachment { frame: slider.block, position: slider.at, z: slider.z };
         let place = self.configuration.position(self.mechanism, &middle);
-        self.wrenches.push(Wrench::force(slider.block, place, push));
-        self.wrenches.push(Wrench::force(slider.guide, place, -push));
+        for (frame, push) in [(slider.block, push), (slider.guide, -push)] {
+            self.wrenches.push(Wrench::force(frame, place, push).in_space(slider.z, T::zero()));
+        }
         Ok(())
     }
 
@@ -255,16 +316,27 @@ impl<T: Real> Loads<'_, T> {
         between.each_ref().map(|end| self.configuration.position(self.mechanism, end))
     }
 
-    fn pull(&mut self, between: &[Attachment<T>; 2], places: [Vector2<T>; 2], pull: Vector2<T>) {
-        self.wrenches.push(Wrench::force(between[0].frame, places[0], pull));
-        self.wrenches.push(Wrench::force(between[1].frame, places[1], -pull));
+    fn pull(
+        &mut self,
+        between: &[Attachment<T>; 2],
+        places: [Vector2<T>; 2],
+        (pull, along_z): (Vector2<T>, T),
+    ) {
+        let [first, second] = between;
+        self.wrenches.push(Wrench::force(first.frame, places[0], pull).in_space(first.z, along_z));
+        self.wrenches.push(Wrench::force(second.frame, places[1], -pull).in_space(second.z, -along_z));
     }
 }
 
 fn direction<T: Real>(load: &Load<T>, axis: Vector2<T>) -> Result<Vector2<T>, Fault> {
     let length = length(axis);
+    check_length(load, length)?;
+    Ok(axis / length)
+}
+
+fn check_length<T: Real>(load: &Load<T>, length: T) -> Result<(), Fault> {
     if length.lower() > 0.0 {
-        return Ok(axis / length);
+        return Ok(());
     }
     Err(Fault::new(FaultKind::ZeroLength { load: load.name.to_string() }, load.place.clone()))
 }

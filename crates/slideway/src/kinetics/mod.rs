@@ -3,13 +3,20 @@
 //! Fourth stage of the pipeline: [`Mechanism`] and [`Configuration`] in, [`KineticEquations`] out.
 //!
 //! ```text
-//! M a - G^T lambda - B u - sum_k W_k^side F_k = f(q, qd, t)      three equations for each body
+//! M a - G^T lambda - B u - sum_k W_k^side F_k = f(q, qd, t)      three equations for each body, six in space
 //! G a                                         = gamma(q, qd)     one for each scalar constraint
 //! C a                                         = prescribed       one for each drive
 //! ```
 //!
 //! Unknown are the accelerations `a` of the bodies, the reactions `lambda` (hinge forces, normal forces,
 //! couples) and the efforts `u` of the drives; the friction forces `F` are the parameters.
+//!
+//! In space the three accelerations out of the plane of each body, along z and about x and y, stand behind those in the plane.
+//! They vanish, and their equations say what the joints carry:
+//!
+//! ```text
+//! m a_z = F_z,     -D_x alpha + D_y omega^2 = M_x,     -D_y alpha - D_x omega^2 = M_y                          (S1)
+//! ```
 //!
 //! Redundant guides leave as many reactions open as they have equations in excess. So many contacts are *cut*:
 //! their rows of `G a = gamma`, which follow from the others, say `N = 0` instead, and what a unit of such a
@@ -51,6 +58,9 @@ pub enum Reaction {
     Normal(ContactId),
     /// Couple of a guided slider on the block about the middle of the pressed face (N m).
     Couple(JointId),
+    /// What a joint carries out of the drawing without friction, on its first body or the block: 0 a force along z (N), 1 and
+    /// 2 a couple about the direction of sliding and about the normal, for hinges about x and y (N m).
+    Carried(JointId, usize),
 }
 
 /// What the acceleration of the gap of a contact that lifts off does, per unit of the force that it takes there. Drives that
@@ -69,6 +79,7 @@ pub(crate) struct Opening<T = f64> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Layout {
     bodies: usize,
+    accelerations: usize,
     reactions: Vec<Reaction>,
     drives: usize,
     /// The contacts that are cut: their normal forces are given, not found.
@@ -92,9 +103,13 @@ impl Layout {
                     }
                 }
             }
+            let carried = (0..3).filter(|&component| mechanism.carries(joint, component));
+            reactions.extend(carried.map(|component| Reaction::Carried(id, component)));
         }
+        let accelerations = mechanism.accelerations();
         let (cut, one_sided) = (mechanism.excess.contacts.clone(), mechanism.one_sided().collect());
-        Self { bodies: mechanism.bodies.len(), reactions, drives: mechanism.drives.len(), cut, one_sided }
+        let (bodies, drives) = (mechanism.bodies.len(), mechanism.drives.len());
+        Self { bodies, accelerations, reactions, drives, cut, one_sided }
     }
 
     /// Contacts that are cut because redundant guides share a load, one for each self-stress.
@@ -113,7 +128,7 @@ impl Layout {
 
     /// Number of unknowns.
     pub fn len(&self) -> usize {
-        3 * self.bodies + self.reactions.len() + self.drives
+        self.accelerations + self.reactions.len() + self.drives
     }
 
     /// Whether there are no unknowns.
@@ -131,10 +146,20 @@ impl Layout {
         3 * body.index()
     }
 
+    /// Number of accelerations, which are the first of the unknowns: those in the plane, then those out of it.
+    pub fn accelerations(&self) -> usize {
+        self.accelerations
+    }
+
+    /// Whether an acceleration is one of rotation.
+    pub(crate) fn is_rotation(&self, acceleration: usize) -> bool {
+        if acceleration < 3 * self.bodies { acceleration % 3 == 2 } else { !acceleration.is_multiple_of(3) }
+    }
+
     /// Index of a reaction, if the mechanism has it.
     pub fn reaction(&self, reaction: Reaction) -> Option<usize> {
         let index = self.reactions.iter().position(|other| *other == reaction)?;
-        Some(3 * self.bodies + index)
+        Some(self.accelerations + index)
     }
 
     /// The right-hand sides with one cut normal force of one each.
@@ -175,7 +200,7 @@ impl Layout {
 
     /// Index of a drive's effort.
     pub fn effort(&self, drive: DriveId) -> usize {
-        3 * self.bodies + self.reactions.len() + drive.index()
+        self.accelerations + self.reactions.len() + drive.index()
     }
 }
 
@@ -325,9 +350,8 @@ impl KineticEquations {
         load: &Load,
     ) -> Result<DVector<f64>, Fault> {
         let mut forces = DVector::zeros(self.load.len());
-        let builder = Builder { mechanism, configuration, layout: &self.layout };
         for wrench in &load_wrenches(mechanism, configuration, load)? {
-            wrench.add_to(builder.configuration, |row, value| forces[row] += value);
+            wrench.add_to(mechanism, configuration, |row, value| forces[row] += value);
         }
         Ok(self.without_noise(&self.factorization.solve(&[&forces])[0]))
     }
@@ -542,7 +566,8 @@ impl<T: Real> Builder<'_, T> {
             matrix[(3 * index + 1, 3 * index + 1)] = body.mass;
             matrix[(3 * index + 2, 3 * index + 2)] = body.moment_of_inertia;
         }
-        let first = 3 * self.mechanism.bodies.len();
+        self.inertia_in_space(&mut matrix);
+        let first = self.layout.accelerations;
         for (index, row) in constraints.iter().enumerate() {
             for &(column, value) in &row.entries {
                 matrix[(first + index, column)] += value;
@@ -555,15 +580,45 @@ impl<T: Real> Builder<'_, T> {
                 matrix[(effort, column)] += value;
             }
             for wrench in loads::unit_effort(self.mechanism, self.configuration, &drive.effort) {
-                wrench.add_to(self.configuration, |row, value| matrix[(row, effort)] -= value);
+                wrench
+                    .add_to(self.mechanism, self.configuration, |row, value| matrix[(row, effort)] -= value);
             }
         }
         matrix
     }
 
+    /// The products of inertia of each body in its pose.
+    fn products(&self, body: usize) -> Option<(usize, Vector2<T>)> {
+        let (first, _) = self.mechanism.out_of_plane(Frame::Body(BodyId(body)))?;
+        let products = self.mechanism.space.as_ref()?.bodies[body].products;
+        Some((first, self.configuration.poses[body].turned(products.into())))
+    }
+
+    /// The inertia of accelerations out of the plane, and what couples them to those in it (S1). Moments of inertia that are
+    /// not known are left out: no answer but attainability depends on them.
+    fn inertia_in_space(&self, matrix: &mut DMatrix<T>) {
+        for (index, body) in self.mechanism.bodies.iter().enumerate() {
+            let Some((first, products)) = self.products(index) else { return };
+            matrix[(first, first)] = body.mass;
+            for (axis, product) in products.iter().enumerate() {
+                matrix[(first + 1 + axis, 3 * index + 2)] = -*product;
+                matrix[(3 * index + 2, first + 1 + axis)] = -*product;
+            }
+            let tilt = self.mechanism.space.as_ref().and_then(|space| space.bodies[index].tilt);
+            let Some([about_x, about_y]) = tilt else { continue };
+            // In the axes of the drawing: turned with the body.
+            let [x, y] =
+                [Vector2::x(), Vector2::y()].map(|axis| self.configuration.poses[index].turned(axis));
+            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                matrix[(first + 1 + row, first + 1 + column)] =
+                    about_x * x[row] * x[column] + about_y * y[row] * y[column];
+            }
+        }
+    }
+
     /// Replaces the rows of the contacts that are cut by N = 0, and gives them.
     fn cut(&self, matrix: &mut DMatrix<T>, constraints: &mut [ConstraintRow<T>]) -> Vec<ConstraintRow<T>> {
-        let first = 3 * self.mechanism.bodies.len();
+        let first = self.layout.accelerations;
         let cut = |contact: &ContactId| {
             let place = self.layout.reaction(Reaction::Normal(*contact))?;
             let row = std::mem::replace(&mut constraints[place - first], ConstraintRow::empty());
@@ -584,9 +639,15 @@ impl<T: Real> Builder<'_, T> {
     ) -> Result<DVector<T>, Faults> {
         let mut load = DVector::zeros(self.layout.len());
         for wrench in applied {
-            wrench.add_to(self.configuration, |row, value| load[row] += value);
+            wrench.add_to(self.mechanism, self.configuration, |row, value| load[row] += value);
         }
-        let first = 3 * self.mechanism.bodies.len();
+        for index in 0..self.mechanism.bodies.len() {
+            let Some((first, products)) = self.products(index) else { break };
+            let spin = self.configuration.velocities[index].angular.square();
+            load[first + 1] -= products.y * spin;
+            load[first + 2] += products.x * spin;
+        }
+        let first = self.layout.accelerations;
         for (index, row) in constraints.iter().enumerate() {
             load[first + index] = row.right_hand_side;
         }
@@ -609,7 +670,7 @@ impl<T: Real> Builder<'_, T> {
         [T::one(), -T::one()].map(|sign| {
             let mut column = DVector::zeros(self.layout.len());
             for wrench in friction_forces(self.mechanism, id, contact, sign, T::one()) {
-                wrench.add_to(self.configuration, |row, value| column[row] += value);
+                wrench.add_to(self.mechanism, self.configuration, |row, value| column[row] += value);
             }
             column
         })
@@ -619,7 +680,7 @@ impl<T: Real> Builder<'_, T> {
     fn friction_couple(&self, joint: JointId) -> DVector<T> {
         let mut column = DVector::zeros(self.layout.len());
         for wrench in self.mechanism.friction_couple(joint, T::one()) {
-            wrench.add_to(self.configuration, |row, value| column[row] += value);
+            wrench.add_to(self.mechanism, self.configuration, |row, value| column[row] += value);
         }
         column
     }
@@ -688,9 +749,11 @@ pub(crate) fn friction_forces<T: Real>(
     sign: T,
     friction: T,
 ) -> [Wrench<T>; 2] {
-    let slider =
-        mechanism.slider(mechanism.contacts[id.index()].joint).expect("contacts belong to sliding joints");
-    let place = contact.point - contact.normal * (sign * (slider.height / T::exactly(2.0)));
-    let on = |frame: Frame, force: Vector2<T>| Wrench { frame, place, force, couple: T::zero() };
+    let Contact { joint, height, .. } = &mechanism.contacts[id.index()];
+    let slider = mechanism.slider(*joint).expect("contacts belong to sliding joints");
+    let half = sign * (height.unwrap_or(slider.height) / T::exactly(2.0));
+    let place = contact.point - contact.normal * half;
+    let z = contact.lean.map_or(contact.z, |[_, sin]| contact.z - sin * half);
+    let on = |frame: Frame, force: Vector2<T>| Wrench::force(frame, place, force).in_space(z, T::zero());
     [on(slider.block, contact.tangent * -friction), on(slider.guide, contact.tangent * friction)]
 }

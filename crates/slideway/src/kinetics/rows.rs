@@ -4,7 +4,7 @@ use super::{Layout, Reaction};
 use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, length, rot90};
+use crate::mechanism::{Attachment, CoordinateKind, JointKind, Mechanism, Slider, length, rot90, tilting};
 use crate::model::Round;
 use crate::units::number::beside;
 use nalgebra::{DVector, Vector2};
@@ -69,6 +69,7 @@ impl<T: Real> ConstraintRow<T> {
                 self.normal(mechanism, configuration, joint, &contacts[contact.index()]);
             }
             Reaction::Couple(joint) => self.no_relative_rotation(mechanism, joint),
+            Reaction::Carried(joint, component) => self.carried(mechanism, configuration, joint, component),
         }
     }
 
@@ -139,8 +140,12 @@ impl<T: Real> ConstraintRow<T> {
     ) {
         if let JointKind::Hinge([first, second]) = &mechanism.joints[joint.index()].kind {
             let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
-            self.add(configuration, first.frame, configuration.position(mechanism, first), axis);
-            self.add(configuration, second.frame, configuration.position(mechanism, second), -axis);
+            for (end, axis) in [(first, axis), (second, -axis)] {
+                let place = configuration.position(mechanism, end);
+                self.add(configuration, end.frame, place, axis);
+                let state = (mechanism, configuration);
+                self.add_out(state, end.frame, (place, end.z), (axis, T::zero()));
+            }
         }
     }
 
@@ -157,12 +162,57 @@ impl<T: Real> ConstraintRow<T> {
     ) {
         let Some(slider) = mechanism.slider(joint) else { return };
         self.add(configuration, slider.block, contact.point, contact.normal);
+        let (place, along_z) = ((contact.point, contact.z), contact.along_z());
+        let state = (mechanism, configuration);
+        self.add_out(state, slider.block, place, (contact.normal, along_z));
+        self.add_out(state, slider.guide, place, (-contact.normal, -along_z));
         if let Some(round) = &slider.round {
             return self.round(mechanism, configuration, (slider, round), contact);
         }
         self.add(configuration, slider.guide, contact.point, -contact.normal);
-        self.right_hand_side +=
+        let turning =
             T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.velocity_at_point;
+        self.right_hand_side += contact.lean.map_or(turning, |[cos, _]| turning * cos);
+    }
+
+    /// What a joint carries out of the drawing: both bodies move along z alike there, or turn alike about an axis in the
+    /// drawing.
+    fn carried(
+        &mut self,
+        mechanism: &Mechanism<T>,
+        configuration: &Configuration<T>,
+        joint: JointId,
+        component: usize,
+    ) {
+        let joined = mechanism.joints[joint.index()].joined();
+        for (frame, sign) in joined.frames.into_iter().zip([T::one(), -T::one()]) {
+            let Some((first, _)) = mechanism.out_of_plane(frame) else { continue };
+            if component == 0 {
+                let (position, z) = joined.place;
+                let place =
+                    configuration.position(mechanism, &Attachment { frame: joined.frames[0], position, z });
+                self.add_out((mechanism, configuration), frame, (place, z), (Vector2::zeros(), sign));
+            } else {
+                let axis = configuration.direction(joined.axes_of, joined.axes[component - 1]) * sign;
+                self.entries.push((first + 1, axis.x));
+                self.entries.push((first + 2, axis.y));
+            }
+        }
+    }
+
+    /// Adds what axis . (acceleration of the material point of `frame` at `place`) has by accelerations out of the plane.
+    fn add_out(
+        &mut self,
+        (mechanism, configuration): (&Mechanism<T>, &Configuration<T>),
+        frame: Frame,
+        (place, z): (Vector2<T>, T),
+        (axis, along_z): (Vector2<T>, T),
+    ) {
+        let Some((first, z_of_body)) = mechanism.out_of_plane(frame) else { return };
+        let about = tilting((configuration.arm(frame, place), z - z_of_body), (axis, along_z));
+        self.entries.push((first, along_z));
+        self.entries.push((first + 1, about.x));
+        self.entries.push((first + 2, about.y));
     }
 
     /// The centre of a disc stays at its distance from the centre of its round face: with v along u of one centre
@@ -220,7 +270,7 @@ fn middle<T: Real>(
     configuration: &Configuration<T>,
     slider: &Slider<T>,
 ) -> Vector2<T> {
-    configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at })
+    configuration.position(mechanism, &Attachment { frame: slider.block, position: slider.at, z: slider.z })
 }
 
 /// The row of the acceleration of sliding of a joint where it rubs, which is the rim of a disc: the normal accelerations of both

@@ -18,13 +18,14 @@ impl Assembled<f64> {
     /// # Errors
     /// The position is singular: a cut contact has no self-stress here.
     pub(crate) fn self_stresses(&self, mechanism: &Mechanism) -> Result<DMatrix<f64>, Faults> {
-        let bodies = 3 * mechanism.bodies.len();
+        let bodies = self.layout.accelerations;
         let place =
             |contact: ContactId| self.layout.reaction(Reaction::Normal(contact)).map(|at| at - bodies);
         let cut: Vec<usize> = self.layout.cut.iter().filter_map(|contact| place(*contact)).collect();
         // Moments count in forces times the size of the mechanism.
         let mut balance = self.matrix.view((0, bodies), (bodies, self.layout.reactions.len())).into_owned();
-        (2..bodies).step_by(3).for_each(|row| balance.row_mut(row).scale_mut(1.0 / mechanism.size));
+        let rotations = (0..bodies).filter(|row| self.layout.is_rotation(*row));
+        rotations.for_each(|row| balance.row_mut(row).scale_mut(1.0 / mechanism.size));
         let kept: Vec<usize> = (0..balance.ncols()).filter(|column| !cut.contains(column)).collect();
         let of_kept = balance.select_columns(&kept);
         let of_cut = balance.select_columns(&cut);

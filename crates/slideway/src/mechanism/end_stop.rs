@@ -40,7 +40,12 @@ impl Mechanism {
                 let gap = if greatest { travel[end] } else { -travel[end] };
                 let face = face_of(slider, -rot90(away), contact);
                 let kind = JointKind::Slider(face);
-                whole.joints.push(Joint { name: name.clone(), place: place.clone(), kind });
+                whole.joints.push(Joint {
+                    name: name.clone(),
+                    place: place.clone(),
+                    carries: [false; 3],
+                    kind,
+                });
                 whole.contacts.push(contact_of((name, id), restitution, gap));
                 if let JointKind::Slider(slider) = &mut whole.joints[joint.index()].kind {
                     slider.stops[end] = None;
@@ -75,6 +80,9 @@ fn contact_of((name, joint): (&Arc<str>, JointId), restitution: f64, gap: f64) -
         name: name.clone(),
         joint,
         offset: 0.0,
+        aside: [0.0; 2],
+        lean: None,
+        height: None,
         carried_by: CarriedBy::Block,
         mu: [0.0; 2],
         law: [None; 2],

@@ -1,8 +1,9 @@
 //! From the formulas of a model to the numbers of a mechanism.
 
 use super::{
-    Attachment, Body, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition, Excess,
-    FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, length, rot90,
+    Attachment, Body, BodyInSpace, Contact, Coordinate, CoordinateKind, Drive, Effort, EventDefinition,
+    Excess, FrictionCircle, Joint, JointKind, Load, LoadKind, Mechanism, Pad, Quantity, Shape, Slider, Space,
+    length, length_in_space, rot90,
 };
 use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
@@ -34,6 +35,7 @@ impl<T: Real> Evaluation<'_, T> {
         let mut mechanism = Mechanism {
             title: model.title.clone(),
             gravity: self.gravity(),
+            space: self.space(),
             time: model.time.map_or(T::zero(), |time| self.value(time)),
             bodies,
             joints,
@@ -68,6 +70,40 @@ impl<T: Real> Evaluation<'_, T> {
         }
     }
 
+    fn quantity_or_zero(&self, id: Option<FormulaId>) -> Quantity<T> {
+        id.map_or(Quantity::Constant(T::zero()), |id| self.quantity(id))
+    }
+
+    /// What the model says of the space out of the drawing; nothing if it is a planar model.
+    fn space(&self) -> Option<Space<T>> {
+        if !self.model.is_spatial() {
+            return None;
+        }
+        let gravity = match self.model.gravity {
+            Gravity::Components(_, z) => self.or_zero(z),
+            Gravity::None | Gravity::Down(_) => T::zero(),
+        };
+        let bodies = self.model.bodies.iter().map(|body| self.body_in_space(&body.inertia)).collect();
+        Some(Space { gravity, bodies })
+    }
+
+    fn body_in_space(&self, inertia: &Inertia) -> BodyInSpace<T> {
+        let none = [T::zero(); 2];
+        let Inertia::Massive { mass, z, products, moment, .. } = inertia else {
+            return BodyInSpace { z: T::zero(), products: none, tilt: Some([T::zero(); 2]) };
+        };
+        let mass = self.value(*mass);
+        let tilt = match moment {
+            Moment::Box(sides) => {
+                let [width, height, depth] = sides.map(|side| self.value(side).square());
+                Some([height + depth, width + depth].map(|sum| mass * sum / T::exactly(12.0)))
+            }
+            Moment::Given(_) | Moment::Bar(_) | Moment::Rectangle(_) | Moment::Disc(_) => None,
+        };
+        let products = products.map_or(none, |products| products.map(|product| self.value(product)));
+        BodyInSpace { z: self.or_zero(*z), products, tilt }
+    }
+
     fn vector(&self, components: [FormulaId; 2]) -> Vector2<T> {
         Vector2::new(self.value(components[0]), self.value(components[1]))
     }
@@ -76,12 +112,17 @@ impl<T: Real> Evaluation<'_, T> {
         match self.model.gravity {
             Gravity::None => Vector2::zeros(),
             Gravity::Down(magnitude) => Vector2::new(T::zero(), -self.value(magnitude)),
-            Gravity::Components(components) => self.vector(components),
+            Gravity::Components(components, _) => self.vector(components),
         }
     }
 
     fn attachment(&self, attachment: &model::Attachment) -> Attachment<T> {
-        Attachment { frame: attachment.frame, position: self.vector(attachment.position) }
+        let z = self.or_zero(attachment.z);
+        Attachment { frame: attachment.frame, position: self.vector(attachment.position), z }
+    }
+
+    fn or_zero(&self, formula: Option<FormulaId>) -> T {
+        formula.map_or(T::zero(), |formula| self.value(formula))
     }
 
     /// Unit vector of a direction; the model has made sure that two points differ.
@@ -104,7 +145,7 @@ impl<T: Real> Evaluation<'_, T> {
         let body = &self.model.bodies[id.index()];
         let (mass, moment_of_inertia, centre_of_mass) = match &body.inertia {
             Inertia::Massless => (T::zero(), T::zero(), mean_joint_place(Frame::Body(id), joints)),
-            Inertia::Massive { mass, centre_of_mass, moment } => {
+            Inertia::Massive { mass, centre_of_mass, moment, .. } => {
                 let mass = self.value(*mass);
                 let (moment, middle) = self.moment_of_inertia(moment, mass);
                 let centre = centre_of_mass.map_or(middle, |centre| self.vector(centre));
@@ -131,6 +172,9 @@ impl<T: Real> Evaluation<'_, T> {
             Moment::Given(_) => None,
             Moment::Bar(ends) => Some(Shape::Bar(ends.map(|end| self.vector(end)))),
             Moment::Rectangle(sides) => Some(Shape::Rectangle(sides.map(|side| self.value(side)))),
+            Moment::Box([width, height, _]) => {
+                Some(Shape::Rectangle([width, height].map(|side| self.value(*side))))
+            }
             Moment::Disc(radius) => Some(Shape::Disc(self.value(*radius))),
         }
     }
@@ -146,6 +190,9 @@ impl<T: Real> Evaluation<'_, T> {
             Moment::Rectangle(sides) => {
                 (mass * square(self.vector(*sides)) / T::exactly(12.0), Vector2::zeros())
             }
+            Moment::Box([width, height, _]) => {
+                (mass * square(self.vector([*width, *height])) / T::exactly(12.0), Vector2::zeros())
+            }
             Moment::Disc(radius) => (mass * self.value(*radius).square() / T::exactly(2.0), Vector2::zeros()),
         }
     }
@@ -157,7 +204,8 @@ impl<T: Real> Evaluation<'_, T> {
             }
             model::JointKind::Slider(slider) => JointKind::Slider(self.slider(slider, id, contacts)),
         };
-        Joint { name: joint.name.clone(), place: joint.place.clone(), kind }
+        let carries = joint.carries.unwrap_or([matches!(kind, JointKind::Hinge(_)); 3]);
+        Joint { name: joint.name.clone(), place: joint.place.clone(), carries, kind }
     }
 
     fn friction_circles(&self) -> Vec<FrictionCircle<T>> {
@@ -183,7 +231,9 @@ impl<T: Real> Evaluation<'_, T> {
         for (index, contact) in slider.contacts.iter().enumerate() {
             let place = contact.face.filter(|face| !face.is_positive).map_or(index, |face| face.other);
             let offset = T::exactly(offsets.get(place).copied().unwrap_or(0.0)) * length;
-            contacts.push(self.contact((contact, joint), first, [offset, length]));
+            let mut contact = self.contact((contact, joint), first, [offset, length]);
+            contact.height = contact.height.map(|height| if slider.around { -height } else { height });
+            contacts.push(contact);
         }
         let tangent = self.direction(&slider.along);
         let at = self.vector(slider.at) + tangent * corner;
@@ -193,6 +243,7 @@ impl<T: Real> Evaluation<'_, T> {
             block: slider.block,
             guide: slider.guide,
             at,
+            z: self.or_zero(slider.z),
             tangent,
             length,
             height: if slider.around { -height } else { height },
@@ -241,6 +292,9 @@ impl<T: Real> Evaluation<'_, T> {
             name: contact.name.clone(),
             joint,
             offset: contact.offset.map_or(offset, |offset| self.value(offset)),
+            aside: contact.aside.map(|aside| self.or_zero(aside)),
+            lean: contact.normal.map(|normal| self.value(normal).direction()),
+            height: contact.height.map(|height| self.value(height)).or(contact.normal.map(|_| T::zero())),
             carried_by: contact.carried_by,
             mu: contact.mu.map(|mu| self.value(mu)),
             law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),
@@ -306,7 +360,7 @@ impl<T: Real> Evaluation<'_, T> {
 
     fn load(&self, load: &model::Load) -> Load<T> {
         let kind = match &load.kind {
-            ModelLoadKind::Force { at, force, frame, reaction } => {
+            ModelLoadKind::Force { at, force, along_z, frame, reaction } => {
                 let (components, axes) = match force {
                     model::ForceValue::Components(components) => {
                         (components.map(|id| self.quantity(id)), [Vector2::x(), Vector2::y()])
@@ -317,14 +371,26 @@ impl<T: Real> Evaluation<'_, T> {
                     }
                 };
                 let turns = *frame == ForceFrame::Body;
-                LoadKind::Force { at: self.attachment(at), components, axes, turns, reaction: *reaction }
+                let along_z = self.quantity_or_zero(*along_z);
+                LoadKind::Force {
+                    at: self.attachment(at),
+                    components,
+                    axes,
+                    along_z,
+                    turns,
+                    reaction: *reaction,
+                }
             }
-            ModelLoadKind::Torque { body, moment, reaction } => {
-                LoadKind::Torque { body: *body, moment: self.quantity(*moment), reaction: *reaction }
-            }
+            ModelLoadKind::Torque { body, moment, tilt, reaction } => LoadKind::Torque {
+                body: *body,
+                moment: self.quantity(*moment),
+                tilt: [0, 1].map(|axis| self.quantity_or_zero(tilt.map(|tilt| tilt[axis]))),
+                reaction: *reaction,
+            },
             ModelLoadKind::Spring { between, stiffness, free_length } => {
                 let between = between.each_ref().map(|end| self.attachment(end));
-                let drawn = length(between[0].position - between[1].position);
+                let [first, second] = &between;
+                let drawn = length_in_space(first.position - second.position, first.z - second.z);
                 LoadKind::Spring {
                     between,
                     stiffness: self.quantity(*stiffness),

@@ -1,12 +1,13 @@
 //! Which joint equations say nothing new: sliding joints that share their load (theory of redundant guides).
 //!
-//! A mechanism with `n` coordinates has `rows + n - 3 b` equations more than determine it. In the drawing, so
+//! A mechanism with `n` coordinates has `rows + n - 3 b` equations more than determine it, `rows + n - 6 b` in space. In the drawing, so
 //! many are chosen that follow from the others: the positions are found without these rows of the joints, and
 //! as many contacts are *cut*, whose normal forces become unknowns of their own (force method). The choice is
 //! the same in every position, so that all numbers that are made with it change continuously. The two faces of a
 //! press fit have one row, so that one of them is cut.
 
-use super::{Attachment, JointKind, Mechanism, Slider, rot90};
+use super::space::tilting;
+use super::{Attachment, Joint, JointKind, Mechanism, Slider, rot90};
 use crate::ids::{ContactId, Frame};
 use crate::model::SliderKind;
 use crate::modes::OpenContacts;
@@ -43,10 +44,26 @@ impl Excess {
 }
 
 /// A row of the drawing.
-struct Row {
+pub(super) struct Row {
     entries: DVector<f64>,
     /// Rows of lower rank are taken first.
     rank: u8,
+}
+
+impl Row {
+    /// Its first columns alone.
+    pub(super) fn within(&self, columns: usize) -> Self {
+        Self { entries: self.entries.rows(0, columns).into_owned(), rank: self.rank }
+    }
+
+    pub(super) fn entries(&self) -> &DVector<f64> {
+        &self.entries
+    }
+}
+
+/// How many of these rows say something new.
+pub(super) fn rank(rows: &[Row]) -> usize {
+    rows.len() - dependent(rows).len()
 }
 
 impl Mechanism {
@@ -55,20 +72,22 @@ impl Mechanism {
         let (reactions, contacts): (Vec<Row>, Vec<Option<ContactId>>) =
             self.reaction_rows().into_iter().unzip();
         let excess =
-            |rows: &[Row]| (rows.len() + self.coordinates.len()).saturating_sub(3 * self.bodies.len());
-        if excess(&reactions) == 0 {
+            |rows: &[Row], columns: usize| (rows.len() + self.coordinates.len()).saturating_sub(columns);
+        let of_reactions = excess(&reactions, self.accelerations());
+        // In space what is too much for the plane may carry out of it.
+        if of_reactions == 0 && self.space.is_none() {
             return Excess::default();
         }
         let positions = self.position_rows();
-        let left_out =
-            dependent(&positions).into_iter().map(|(row, _)| row).take(excess(&positions)).collect();
+        let of_positions = excess(&positions, 3 * self.bodies.len());
+        let left_out = dependent(&positions).into_iter().map(|(row, _)| row).take(of_positions).collect();
         // Of both faces of a press fit one is always in excess, while other rows may be so in the drawing alone.
         let is_second_face = |row: usize| {
             contacts[row].is_some_and(|contact: ContactId| self.contacts[contact.index()].is_second_face())
         };
         let mut stresses = dependent(&reactions);
         stresses.sort_by_key(|(row, _)| !is_second_face(*row));
-        stresses.truncate(excess(&reactions));
+        stresses.truncate(of_reactions);
         let cut: Vec<Option<ContactId>> = stresses.iter().map(|(row, _)| contacts[*row]).collect();
         let mut forces = DMatrix::zeros(self.contacts.len(), stresses.len());
         for (row, contact) in contacts.iter().enumerate() {
@@ -94,7 +113,7 @@ impl Mechanism {
                 JointKind::Hinge(ends) => rows.extend(self.hinge_rows(ends, 1)),
                 JointKind::Slider(slider) if slider.contacts.is_empty() => {}
                 JointKind::Slider(slider) => {
-                    rows.push(self.normal_row(slider, 0.0, 2));
+                    rows.push(self.normal_row(slider, (slider.at, rot90(slider.tangent)), 2));
                     if slider.kind != SliderKind::Pin {
                         rows.push(self.rotation_row(slider));
                     }
@@ -106,15 +125,21 @@ impl Mechanism {
     }
 
     /// The rows of hinges and rotation locks, which are taken first, and of the contacts.
-    fn reaction_rows(&self) -> Vec<(Row, Option<ContactId>)> {
+    pub(super) fn reaction_rows(&self) -> Vec<(Row, Option<ContactId>)> {
         let mut rows = Vec::new();
         for joint in &self.joints {
             match &joint.kind {
                 JointKind::Hinge(ends) => rows.extend(self.hinge_rows(ends, 0).map(|row| (row, None))),
                 JointKind::Slider(slider) => {
-                    let normal = |contact: &ContactId| {
-                        let offset = self.contacts[contact.index()].offset;
-                        (self.normal_row(slider, offset, 1), Some(*contact))
+                    let normal = |id: &ContactId| {
+                        let contact = &self.contacts[id.index()];
+                        let normal = rot90(slider.tangent);
+                        let [cos, sin] = contact.lean.unwrap_or([1.0, 0.0]);
+                        let mut row = self.normal_row(slider, (contact.position(slider), normal * cos), 1);
+                        let place = (contact.position(slider), slider.z + contact.aside[1]);
+                        self.displace_out(&mut row, slider.block, place, (normal * cos, sin));
+                        self.displace_out(&mut row, slider.guide, place, (-normal * cos, -sin));
+                        (row, Some(*id))
                     };
                     rows.extend(slider.contacts.iter().map(normal));
                     if slider.kind == SliderKind::Guided {
@@ -122,28 +147,47 @@ impl Mechanism {
                     }
                 }
             }
+            let carried = (0..3).filter(|&component| self.carries(joint, component));
+            rows.extend(carried.map(|component| (self.carried_row(joint, component), None)));
         }
         rows
+    }
+
+    /// What a joint carries out of the drawing without friction: a force along z, or a couple.
+    fn carried_row(&self, joint: &Joint, component: usize) -> Row {
+        let mut row = self.row(0);
+        let joined = joint.joined();
+        for (frame, sign) in joined.frames.into_iter().zip([1.0, -1.0]) {
+            if component == 0 {
+                self.displace_out(&mut row, frame, joined.place, (Vector2::zeros(), sign));
+            } else if let Some((first, _)) = self.out_of_plane(frame) {
+                let axis = joined.axes[component - 1] * sign;
+                row.entries[first + 1] += axis.x;
+                row.entries[first + 2] += axis.y;
+            }
+        }
+        row
     }
 
     /// Both ends of a hinge move alike.
     fn hinge_rows(&self, ends: &[Attachment; 2], rank: u8) -> [Row; 2] {
         [Vector2::x(), Vector2::y()].map(|axis| {
             let mut row = self.row(rank);
-            self.displace(&mut row, ends[0].frame, ends[0].position, axis);
-            self.displace(&mut row, ends[1].frame, ends[1].position, -axis);
+            for (end, axis) in ends.iter().zip([axis, -axis]) {
+                self.displace(&mut row, end.frame, end.position, axis);
+                self.displace_out(&mut row, end.frame, (end.position, end.z), (axis, 0.0));
+            }
             row
         })
     }
 
     fn row(&self, rank: u8) -> Row {
-        Row { entries: DVector::zeros(3 * self.bodies.len()), rank }
+        Row { entries: DVector::zeros(self.accelerations()), rank }
     }
 
-    /// The block stays on the line of the guide, so far from its middle.
-    fn normal_row(&self, slider: &Slider, offset: f64, rank: u8) -> Row {
+    /// The block stays on the line of the guide at a place, in the direction of a normal.
+    fn normal_row(&self, slider: &Slider, (place, normal): (Vector2<f64>, Vector2<f64>), rank: u8) -> Row {
         let mut row = self.row(rank);
-        let (place, normal) = (slider.at + slider.tangent * offset, rot90(slider.tangent));
         self.displace(&mut row, slider.block, place, normal);
         self.displace(&mut row, slider.guide, place, -normal);
         row
@@ -167,6 +211,22 @@ impl Mechanism {
             }
         }
         row
+    }
+
+    /// Adds what the displacement of a frame's point in space has by its motion out of the plane.
+    fn displace_out(
+        &self,
+        row: &mut Row,
+        frame: Frame,
+        (place, z): (Vector2<f64>, f64),
+        (axis, along_z): (Vector2<f64>, f64),
+    ) {
+        let (Some((first, z_of_body)), Some(body)) = (self.out_of_plane(frame), frame.body()) else { return };
+        let arm = (place - self.bodies[body.index()].centre_of_mass, z - z_of_body);
+        let about = tilting(arm, (axis, along_z)) / self.size;
+        row.entries[first] += along_z;
+        row.entries[first + 1] += about.x;
+        row.entries[first + 2] += about.y;
     }
 
     /// Adds the displacement of a frame's point along an axis; lengths count in sizes of the mechanism.

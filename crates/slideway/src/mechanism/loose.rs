@@ -39,6 +39,7 @@ impl Mechanism {
                 let face = Joint {
                     name: format!("{name}.{side}").into(),
                     place: place.clone(),
+                    carries: [false; 3],
                     kind: JointKind::Slider(face),
                 };
                 if sign > 0.0 { faces.joints[id.index()] = face } else { faces.joints.push(face) }

@@ -13,6 +13,7 @@ mod pad;
 mod part;
 mod press_fit;
 mod relations;
+mod space;
 
 use crate::expression::{Expression, Values};
 use crate::fault::{Fault, FaultKind, Faults, Place};
@@ -31,6 +32,8 @@ use nalgebra::Vector2;
 pub use pad::Pad;
 pub(crate) use part::{body_of, frames_of};
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
+pub(crate) use space::tilting;
+pub use space::{BodyInSpace, Space};
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
@@ -45,6 +48,8 @@ pub struct Mechanism<T = f64> {
     pub title: Option<String>,
     /// Acceleration of free fall (m/s^2).
     pub gravity: Vector2<T>,
+    /// What it has out of the plane of its motion, if the model says something of that.
+    pub space: Option<Space<T>>,
     /// Time of the state (s).
     pub time: T,
     /// The moving bodies.
@@ -114,6 +119,15 @@ pub struct Attachment<T = f64> {
     pub frame: Frame,
     /// Its place in the drawing.
     pub position: Vector2<T>,
+    /// How far it is out of the drawing (m).
+    pub z: T,
+}
+
+impl<T: Real> Attachment<T> {
+    /// A point that moves with a frame, at this place of the drawing.
+    pub fn new(frame: Frame, position: Vector2<T>) -> Self {
+        Self { frame, position, z: T::zero() }
+    }
 }
 
 /// A joint.
@@ -123,8 +137,42 @@ pub struct Joint<T = f64> {
     pub name: Arc<str>,
     /// Its entry in the model file.
     pub place: Place,
+    /// What it carries out of the drawing without friction: a force along z, and couples about the direction of sliding
+    /// and about the normal in the drawing, of a hinge about x and y.
+    pub carries: [bool; 3],
     /// Kind of joint, with its data.
     pub kind: JointKind<T>,
+}
+
+/// What a joint joins, as it is in the drawing.
+pub(crate) struct Joined<T> {
+    /// The block and the guide, or the bodies of a hinge.
+    pub(crate) frames: [Frame; 2],
+    /// Where, and how far that is out of the drawing (m).
+    pub(crate) place: (Vector2<T>, T),
+    /// The frame with which its axes turn, and the direction of sliding and the normal, or x and y.
+    pub(crate) axes_of: Frame,
+    pub(crate) axes: [Vector2<T>; 2],
+}
+
+impl<T: Real> Joint<T> {
+    /// What it joins.
+    pub(crate) fn joined(&self) -> Joined<T> {
+        match &self.kind {
+            JointKind::Hinge([first, second]) => Joined {
+                frames: [first.frame, second.frame],
+                place: (first.position, first.z),
+                axes_of: Frame::Ground,
+                axes: [Vector2::x(), Vector2::y()],
+            },
+            JointKind::Slider(slider) => Joined {
+                frames: [slider.block, slider.guide],
+                place: (slider.at, slider.z),
+                axes_of: slider.guide,
+                axes: [slider.tangent, rot90(slider.tangent)],
+            },
+        }
+    }
 }
 
 /// The kinds of joint.
@@ -147,6 +195,8 @@ pub struct Slider<T = f64> {
     pub guide: Frame,
     /// Middle of the block in the drawing, on the centre line of the guide.
     pub at: Vector2<T>,
+    /// How far that is out of the drawing (m).
+    pub z: T,
     /// Tangent u of the guide in the drawing; the normal is n = rot90(u).
     pub tangent: Vector2<T>,
     /// Distance of the contacts or length of the pressed face in the drawing (m).
@@ -182,6 +232,13 @@ pub struct Contact<T = f64> {
     pub joint: JointId,
     /// Distance from the middle of the block along the tangent in the drawing (m).
     pub offset: T,
+    /// Its distances from the guide's line along n, and from the middle of the block along z (m).
+    pub aside: [T; 2],
+    /// Cosine and sine of the angle of its normal from n towards z, if that is not in the drawing.
+    pub lean: Option<[T; 2]>,
+    /// The distance of its rubbing faces along its normal (m), negative where the block surrounds the guide, if it is not
+    /// that of the joint.
+    pub height: Option<T>,
     /// Part with which it travels: block or guide.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative: at the
@@ -238,7 +295,8 @@ impl<T: Real> Contact<T> {
 
     /// Where it is in the drawing.
     pub fn position(&self, slider: &Slider<T>) -> Vector2<T> {
-        slider.at + slider.tangent * self.offset
+        let on_line = slider.at + slider.tangent * self.offset;
+        if self.aside[0].is_zero() { on_line } else { on_line + rot90(slider.tangent) * self.aside[0] }
     }
 
     fn multiply_friction(&mut self, factor: T) {
@@ -362,6 +420,8 @@ pub enum LoadKind<T = f64> {
         components: [Quantity<T>; 2],
         /// The directions of the components in the drawing.
         axes: [Vector2<T>; 2],
+        /// Component along z.
+        along_z: Quantity<T>,
         /// Whether the directions turn with the body.
         turns: bool,
         /// Frame on which the opposite force acts, if it acts on one.
@@ -373,6 +433,8 @@ pub enum LoadKind<T = f64> {
         body: Frame,
         /// Its moment (N m).
         moment: Quantity<T>,
+        /// Its moments about x and y (N m).
+        tilt: [Quantity<T>; 2],
         /// Frame on which the opposite torque acts, if it acts on one.
         reaction: Option<Frame>,
     },
@@ -551,6 +613,7 @@ impl Mechanism {
         mechanism.check_magnitudes()?;
         mechanism.check_play()?;
         mechanism.check_signs_of_play()?;
+        mechanism.check_in_space()?;
         mechanism.excess = mechanism.found_excess();
         Ok(mechanism)
     }
@@ -756,8 +819,9 @@ impl<T: Real> Mechanism<T> {
 
     /// Whether the friction of a contact's preload acts at another face when the contact changes its side.
     pub fn preload_changes_face(&self, contact: ContactId) -> bool {
-        let Contact { joint, preload, preload_line, .. } = &self.contacts[contact.index()];
-        let has_two_faces = self.slider(*joint).is_some_and(|slider| slider.height != T::zero());
+        let Contact { joint, preload, preload_line, height, .. } = &self.contacts[contact.index()];
+        let has_two_faces =
+            self.slider(*joint).is_some_and(|slider| height.unwrap_or(slider.height) != T::zero());
         *preload_line == PreloadLine::Pressed && has_two_faces && *preload != [T::zero(); 2]
     }
 
@@ -844,6 +908,15 @@ impl<T: Real> Mechanism<T> {
 /// A vector turned by a right angle counter-clockwise: n = rot90(u).
 pub fn rot90<T: Real>(vector: Vector2<T>) -> Vector2<T> {
     Vector2::new(-vector.y, vector.x)
+}
+
+/// Length of a vector with a part out of the drawing.
+pub(crate) fn length_in_space<T: Real>(vector: Vector2<T>, rise: T) -> T {
+    if rise.is_zero() {
+        length(vector)
+    } else {
+        (vector.x.square() + vector.y.square() + rise.square()).sqrt()
+    }
 }
 
 /// Length of a vector.

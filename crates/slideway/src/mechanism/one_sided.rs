@@ -20,7 +20,7 @@ impl<T: Real> Slider<T> {
 
     /// The centre of the round face of its guide.
     pub fn centre_of(&self, round: &Round<T>) -> Attachment<T> {
-        Attachment { frame: self.guide, position: round.centre.into() }
+        Attachment { frame: self.guide, position: round.centre.into(), z: self.z }
     }
 }
 

@@ -119,8 +119,8 @@ pub(crate) fn loaded_bodies(mechanism: &Mechanism, kind: &LoadKind) -> Vec<BodyI
 /// The numbers of a load that may vary.
 pub(crate) fn quantities(kind: &LoadKind) -> Vec<Quantity> {
     match kind {
-        LoadKind::Force { components, .. } => components.to_vec(),
-        LoadKind::Torque { moment, .. } => vec![*moment],
+        LoadKind::Force { components: [x, y], along_z, .. } => vec![*x, *y, *along_z],
+        LoadKind::Torque { moment, tilt: [x, y], .. } => vec![*moment, *x, *y],
         LoadKind::Spring { stiffness, free_length, .. } => vec![*stiffness, *free_length],
         LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => vec![*damping],
         LoadKind::TorsionalSpring { stiffness, free_angle, .. } => vec![*stiffness, *free_angle],

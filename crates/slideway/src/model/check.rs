@@ -229,6 +229,44 @@ impl Model {
         rows + self.joints.iter().filter(sticks).count() + self.coordinates.len() > 3 * self.bodies.len()
     }
 
+    /// Whether it says something of the space out of the drawing.
+    pub(crate) fn is_spatial(&self) -> bool {
+        let body = |body: &super::Body| {
+            let of_inertia = match &body.inertia {
+                super::Inertia::Massless => false,
+                super::Inertia::Massive { z, products, moment, .. } => {
+                    z.is_some() || products.is_some() || matches!(moment, super::Moment::Box(_))
+                }
+            };
+            of_inertia || body.points.iter().any(|point| point.z.is_some())
+        };
+        let joint = |joint: &Joint| {
+            let of_kind = match &joint.kind {
+                JointKind::Hinge(hinge) => hinge.between.iter().any(|end| end.z.is_some()),
+                JointKind::Slider(slider) => slider.z.is_some(),
+            };
+            of_kind || joint.carries.is_some()
+        };
+        let contact =
+            |contact: &Contact| contact.aside != [None; 2] || contact.normal.or(contact.height).is_some();
+        let load = |load: &super::Load| match &load.kind {
+            LoadKind::Force { at, along_z, .. } => at.z.or(*along_z).is_some(),
+            LoadKind::Torque { tilt, .. } => tilt.is_some(),
+            LoadKind::Spring { between, .. } | LoadKind::Damper { between, .. } => {
+                between.iter().any(|end| end.z.is_some())
+            }
+            LoadKind::TorsionalSpring { .. } | LoadKind::TorsionalDamper { .. } => false,
+        };
+        let drive =
+            |drive: &super::Drive| matches!(&drive.effort, super::Effort::Force { at, .. } if at.z.is_some());
+        matches!(self.gravity, super::Gravity::Components(_, Some(_)))
+            || self.bodies.iter().any(body)
+            || self.joints.iter().any(joint)
+            || self.contacts_and_apart().any(contact)
+            || self.loads.iter().any(load)
+            || self.drives.iter().any(drive)
+    }
+
     /// The contacts of all sliding joints, in the order of the mechanism's.
     pub(crate) fn contacts(&self) -> impl Iterator<Item = &Contact> {
         self.sliders().flat_map(|slider| &slider.contacts)

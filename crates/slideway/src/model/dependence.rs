@@ -199,9 +199,13 @@ impl Places<'_> {
 
     fn load(&mut self, load: &LoadKind) -> Degree {
         match load {
-            LoadKind::Force { force: ForceValue::Components(components), .. } => self.greatest(*components),
+            LoadKind::Force { force: ForceValue::Components(components), along_z, .. } => {
+                self.greatest(components.iter().copied().chain(*along_z).collect::<Vec<_>>())
+            }
             LoadKind::Force { force: ForceValue::Along(magnitude, _), .. } => self.degree(*magnitude),
-            LoadKind::Torque { moment, .. } => self.degree(*moment),
+            LoadKind::Torque { moment, tilt, .. } => {
+                self.greatest(tilt.iter().flatten().copied().chain([*moment]).collect::<Vec<_>>())
+            }
             LoadKind::Damper { damping, .. } | LoadKind::TorsionalDamper { damping, .. } => {
                 self.degree(*damping)
             }
@@ -218,7 +222,9 @@ impl Places<'_> {
         let gravity = match self.model.gravity {
             Gravity::None => Degree::Constant,
             Gravity::Down(magnitude) => self.degree(magnitude),
-            Gravity::Components(components) => self.greatest(components),
+            Gravity::Components(components, z) => {
+                self.greatest(components.into_iter().chain(z).collect::<Vec<_>>())
+            }
         };
         if self.model.drives.len() < self.model.coordinates.len() {
             return gravity;
@@ -229,7 +235,7 @@ impl Places<'_> {
                 let mass = self.degree(*mass);
                 let moment = match moment {
                     Moment::Given(moment) => self.degree(*moment),
-                    Moment::Bar(_) | Moment::Rectangle(_) | Moment::Disc(_) => mass,
+                    Moment::Bar(_) | Moment::Rectangle(_) | Moment::Box(_) | Moment::Disc(_) => mass,
                 };
                 gravity.times(mass).max(moment)
             }

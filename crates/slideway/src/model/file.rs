@@ -3,7 +3,7 @@
 //! The doc comments of this file, and those of `schema.rs`, are what an editor shows for each key.
 //! `schema.json` is what they give; a test holds it to them.
 
-use super::quantity::{Components, Direction, Name, OutlinePlace, PerSide, Place, Quantity, Span};
+use super::quantity::{Components, Direction, InSpace, Name, OutlinePlace, PerSide, Place, Quantity, Span};
 #[cfg(test)]
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -71,7 +71,10 @@ pub(super) struct BodyTable {
     pub(super) moment_of_inertia: Option<Quantity>,
     /// Shape of a homogeneous body, from which its moment of inertia follows.
     pub(super) shape: Option<ShapeTable>,
-    /// Centre of mass: a point's name or [x, y]. The middle of a bar unless given.
+    /// Products of inertia [D_x, D_y] = [int x z dm, int y z dm] about the centre of mass, in the axes of the drawing
+    /// (kg m^2). Default: 0.
+    pub(super) products_of_inertia: Option<Components>,
+    /// Centre of mass: a point's name, [x, y] or [x, y, z]. The middle of a bar unless given.
     pub(super) centre_of_mass: Option<Place>,
     /// `true` for a body without mass.
     pub(super) massless: Option<bool>,
@@ -90,6 +93,9 @@ pub(super) struct ShapeTable {
     pub(super) bar: Option<[Place; 2]>,
     /// A rectangle [width, height] about the centre of mass: m (w^2 + h^2)/12.
     pub(super) rectangle: Option<Components>,
+    /// A box [width, height, depth] about the centre of mass, with its depth along z: m (w^2 + h^2)/12.
+    #[serde(rename = "box")]
+    pub(super) cuboid: Option<[Quantity; 3]>,
     /// A disc of this radius about the centre of mass: m r^2/2.
     pub(super) disc: Option<Quantity>,
 }
@@ -112,6 +118,37 @@ pub(super) struct HingeTable {
     pub(super) friction_radius: Option<Quantity>,
     /// Radius of the friction circle at rest (m), not below `friction_radius`. Default: `friction_radius`.
     pub(super) static_friction_radius: Option<Quantity>,
+    /// What it carries out of the drawing: "all" (default), the force along "z" alone, the couples of "tilt" alone,
+    /// or "nothing".
+    pub(super) carries: Option<HingeCarries>,
+}
+
+/// What a hinge carries out of the drawing.
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub(super) enum HingeCarries {
+    /// A force along z and couples about x and y.
+    All,
+    /// A force along z: a ball.
+    Z,
+    /// Couples about x and y: a cylinder.
+    Tilt,
+    /// None of them.
+    Nothing,
+}
+
+/// What a sliding joint carries out of the drawing without friction.
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub(super) enum SliderCarries {
+    /// A force along z.
+    Z,
+    /// A couple about the direction of sliding.
+    Roll,
+    /// A couple about the normal in the drawing.
+    Pitch,
 }
 
 /// How the radius of the friction circle follows from the friction coefficient mu and the radius rho of a pin.
@@ -171,6 +208,9 @@ pub(super) struct SliderTable {
     /// The contact at the other end: what differs there.
     #[cfg_attr(test, schemars(with = "Option<super::schema::EndTable>"))]
     pub(super) rear: Option<ContactTable>,
+    /// What it carries out of the drawing without friction, such as ball rails: any of "z", "roll" and "pitch".
+    /// Default: nothing but what its contacts carry.
+    pub(super) carries: Option<Vec<SliderCarries>>,
     /// Further contacts by their names, such as `middle = { at = "20 mm" }`: they are redundant, and share the load
     /// by play, stiffness and misalignment.
     #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::schema::SupportTable>>"))]
@@ -221,6 +261,18 @@ pub(super) struct DiscOnDiscTable {
 pub(super) struct ContactTable {
     /// Its place in the drawing: how far from the middle of the block in the direction of `along`.
     pub(super) at: Option<Quantity>,
+    /// How far it is from the guide's line along n, rot90 of `along`. Default: 0.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) aside: Option<Quantity>,
+    /// How far it is out of the drawing. Default: 0.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) z: Option<Quantity>,
+    /// Distance of its two faces along its normal. Default: that of the joint, 0 where the normal leans out of the drawing.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) height: Option<Quantity>,
+    /// Direction of its normal in the cross-section, an angle from n towards z: "90 deg" carries along z. Default: 0.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) normal: Option<Quantity>,
     /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
     pub(super) carried_by: Option<CarriedBy>,
     /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
@@ -321,8 +373,8 @@ pub enum PreloadLine {
 pub(super) struct ForceTable {
     /// Where the force acts, as "body.point".
     pub(super) at: Name,
-    /// Components [x, y] (N); or give `magnitude` and `direction`.
-    pub(super) components: Option<Components>,
+    /// Components [x, y] or [x, y, z] (N); or give `magnitude` and `direction`.
+    pub(super) components: Option<InSpace>,
     /// Magnitude along `direction` (N).
     pub(super) magnitude: Option<Quantity>,
     /// Direction of the force: an angle from the x axis, or two points `["from", "to"]` of the drawing.
@@ -350,8 +402,10 @@ pub enum ForceFrame {
 pub(super) struct TorqueTable {
     /// The body on which it acts.
     pub(super) body: Name,
-    /// Its moment (N m).
-    pub(super) moment: Quantity,
+    /// Its moment (N m); or give `moments`.
+    pub(super) moment: Option<Quantity>,
+    /// Its moments [M_x, M_y, M_z] about the axes of the drawing and out of it (N m).
+    pub(super) moments: Option<[Quantity; 3]>,
     /// The body on which the opposite torque acts. Default: none.
     pub(super) reaction: Option<Name>,
 }

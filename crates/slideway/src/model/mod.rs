@@ -129,8 +129,8 @@ pub enum Gravity {
     None,
     /// Its magnitude, along -y.
     Down(FormulaId),
-    /// Its components [x, y].
-    Components([FormulaId; 2]),
+    /// Its components [x, y], and that along z if it is given.
+    Components([FormulaId; 2], Option<FormulaId>),
 }
 
 /// A named number.
@@ -164,6 +164,8 @@ pub struct NamedPoint {
     pub name: Arc<str>,
     /// Its world coordinates in the drawing.
     pub position: [FormulaId; 2],
+    /// How far it is out of the drawing, if that is given.
+    pub z: Option<FormulaId>,
 }
 
 /// Inertia of a body.
@@ -177,6 +179,10 @@ pub enum Inertia {
         mass: FormulaId,
         /// Centre of mass in the drawing; nothing means the middle of the bar.
         centre_of_mass: Option<[FormulaId; 2]>,
+        /// How far the centre of mass is out of the drawing, if that is given.
+        z: Option<FormulaId>,
+        /// Products of inertia `int x z dm` and `int y z dm` about the centre of mass, if they are given.
+        products: Option<[FormulaId; 2]>,
         /// Source of its moment of inertia.
         moment: Moment,
     },
@@ -191,6 +197,8 @@ pub enum Moment {
     Bar([[FormulaId; 2]; 2]),
     /// A rectangle of this width and height.
     Rectangle([FormulaId; 2]),
+    /// A box of this width, height and depth.
+    Box([FormulaId; 3]),
     /// A disc of this radius.
     Disc(FormulaId),
 }
@@ -204,6 +212,8 @@ pub struct Attachment {
     pub name: Arc<str>,
     /// World coordinates in the drawing.
     pub position: [FormulaId; 2],
+    /// How far it is out of the drawing, if that is given.
+    pub z: Option<FormulaId>,
 }
 
 /// A joint.
@@ -213,6 +223,9 @@ pub struct Joint {
     pub name: Arc<str>,
     /// Its entry in the file.
     pub place: Place,
+    /// What it carries out of the drawing without friction, if the file says so: a force along z, and couples about
+    /// the direction of sliding and the normal, for hinges about x and y.
+    pub carries: Option<[bool; 3]>,
     /// Kind of joint, with its data.
     pub kind: JointKind,
 }
@@ -249,6 +262,8 @@ pub struct Slider {
     pub guide: Frame,
     /// Middle of the block in the drawing.
     pub at: [FormulaId; 2],
+    /// How far it is out of the drawing, if that is given.
+    pub z: Option<FormulaId>,
     /// Direction of positive sliding in the drawing.
     pub along: Along,
     /// Distance of the contacts, or length of the pressed face; zero for a pin.
@@ -322,6 +337,12 @@ pub struct Contact {
     pub name: Arc<str>,
     /// Its place from the middle of the block; nothing means an end of a block, or its middle for other sliders.
     pub offset: Option<FormulaId>,
+    /// Its distance from the guide's line along n, and from the drawing along z.
+    pub aside: [Option<FormulaId>; 2],
+    /// The angle of its normal from n towards z.
+    pub normal: Option<FormulaId>,
+    /// The distance of its faces along its normal; nothing means that of the joint, or zero where its normal leans.
+    pub height: Option<FormulaId>,
     /// Part with which it travels: block or guide.
     pub carried_by: CarriedBy,
     /// Kinetic friction coefficient where the normal force is positive, and where it is negative.
@@ -393,6 +414,8 @@ pub enum LoadKind {
         at: Attachment,
         /// Its value.
         force: ForceValue,
+        /// Its component along z, if that is given.
+        along_z: Option<FormulaId>,
         /// In which frame its direction is fixed.
         frame: ForceFrame,
         /// Frame on which the opposite force acts, if it acts on one.
@@ -404,6 +427,8 @@ pub enum LoadKind {
         body: Frame,
         /// Its moment.
         moment: FormulaId,
+        /// Its moments about x and y, if they are given.
+        tilt: Option<[FormulaId; 2]>,
         /// Frame on which the opposite torque acts, if it acts on one.
         reaction: Option<Frame>,
     },

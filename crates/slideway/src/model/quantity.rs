@@ -62,13 +62,38 @@ impl<'de> Deserialize<'de> for Quantity {
 /// Two quantities [x, y].
 pub(super) type Components = [Quantity; 2];
 
+/// Quantities [x, y], or [x, y, z] with what points out of the drawing.
+#[derive(Debug, Clone)]
+pub(super) struct InSpace {
+    /// In the drawing.
+    pub(super) components: Components,
+    /// Out of it.
+    pub(super) z: Option<Quantity>,
+}
+
+impl<'de> Deserialize<'de> for InSpace {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct InSpaceVisitor;
+        impl<'de> Visitor<'de> for InSpaceVisitor {
+            type Value = InSpace;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("[x, y] or [x, y, z]")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, sequence: A) -> Result<InSpace, A::Error> {
+                in_space(sequence, "[x, y] or [x, y, z]")
+            }
+        }
+        deserializer.deserialize_seq(InSpaceVisitor)
+    }
+}
+
 /// A place in the drawing.
 #[derive(Debug, Clone)]
 pub(super) enum Place {
     /// The name of a point.
     Point(Name),
     /// Its coordinates.
-    Coordinates(Box<Components>),
+    Coordinates(Box<InSpace>),
 }
 
 /// A place of an outline.
@@ -121,8 +146,8 @@ pub(super) struct Sides {
 pub(super) enum Gravity {
     /// Magnitude, along -y.
     Down(Quantity),
-    /// Components [x, y].
-    Components(Box<Components>),
+    /// Components [x, y], or [x, y, z].
+    Components(Box<InSpace>),
 }
 
 /// Deserializes a value that is written either as one thing or as a list or table of them; `visit_any` keeps
@@ -195,8 +220,13 @@ fn pair<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(
     Ok([first, second])
 }
 
+fn in_space<'de, A: SeqAccess<'de>>(mut sequence: A, expected: &str) -> Result<InSpace, A::Error> {
+    let components = pair(&mut sequence, expected)?;
+    Ok(InSpace { components, z: sequence.next_element()? })
+}
+
 impl<'de> Either<'de> for Place {
-    const EXPECTED: &'static str = "the name of a point, or its coordinates [x, y]";
+    const EXPECTED: &'static str = "the name of a point, or its coordinates [x, y] or [x, y, z]";
     fn from_quantity(quantity: Quantity) -> Option<Self> {
         match quantity.written {
             Value::Text(text) => Some(Self::Point(Name { text, span: quantity.span })),
@@ -204,7 +234,7 @@ impl<'de> Either<'de> for Place {
         }
     }
     fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {
-        Ok(Self::Coordinates(Box::new(pair(sequence, Self::EXPECTED)?)))
+        Ok(Self::Coordinates(Box::new(in_space(sequence, Self::EXPECTED)?)))
     }
 }
 
@@ -244,12 +274,12 @@ impl<'de> Either<'de> for PerSide {
 }
 
 impl<'de> Either<'de> for Gravity {
-    const EXPECTED: &'static str = "a quantity, or its components [x, y]";
+    const EXPECTED: &'static str = "a quantity, or its components [x, y] or [x, y, z]";
     fn from_quantity(quantity: Quantity) -> Option<Self> {
         Some(Self::Down(quantity))
     }
     fn from_sequence<A: SeqAccess<'de>>(sequence: A) -> Result<Self, A::Error> {
-        Ok(Self::Components(Box::new(pair(sequence, Self::EXPECTED)?)))
+        Ok(Self::Components(Box::new(in_space(sequence, Self::EXPECTED)?)))
     }
 }
 

@@ -8,7 +8,7 @@ use super::file::{
     SliderTable, StopTable, TableTable,
 };
 use super::quantity::{
-    Components, Direction, Gravity, Name, OutlinePlace, PerSide, Place, Quantity, Sides, Through,
+    Direction, Gravity, InSpace, Name, OutlinePlace, PerSide, Place, Quantity, Sides, Through,
 };
 use super::sections::LoadContents;
 use crate::units::UnitSystem;
@@ -27,7 +27,7 @@ struct ModelFile {
     description: Option<Name>,
     /// Where it comes from.
     source: Option<Name>,
-    /// Acceleration of free fall: a number (downwards, along -y) or its components [x, y]. Default: none.
+    /// Acceleration of free fall: a number (downwards, along -y) or its components [x, y] or [x, y, z]. Default: none.
     gravity: Option<Gravity>,
     /// Time of the state, `t` in expressions (s). Default: 0.
     time: Option<Quantity>,
@@ -37,8 +37,8 @@ struct ModelFile {
     parameters: Option<BTreeMap<String, Quantity>>,
     /// Functions given by values, which expressions may call: `push(t)` for `[tables.push]`.
     tables: Option<BTreeMap<String, TableTable>>,
-    /// Points in world coordinates [x, y] of the reference drawing.
-    points: Option<BTreeMap<String, Components>>,
+    /// Points in world coordinates [x, y] of the reference drawing, or [x, y, z] with z out of it.
+    points: Option<BTreeMap<String, InSpace>>,
     /// The rigid bodies. `ground` needs no entry: it owns every point that no body owns.
     bodies: BTreeMap<String, BodyTable>,
     /// Hinges and sliding joints, each between two bodies or a body and `ground`.
@@ -124,6 +124,21 @@ struct CornerTable {
     restitution: Option<Quantity>,
 }
 
+/// Where a contact is in the cross-section of its guide.
+#[derive(JsonSchema)]
+#[schemars(deny_unknown_fields)]
+#[expect(dead_code, reason = "only its schema is used: it is read as that of a contact")]
+struct SectionTable {
+    /// How far it is from the guide's line along n, rot90 of `along`. Default: 0.
+    aside: Option<Quantity>,
+    /// How far it is out of the drawing. Default: 0.
+    z: Option<Quantity>,
+    /// Distance of its two faces along its normal. Default: that of the joint, 0 where the normal leans out of the drawing.
+    height: Option<Quantity>,
+    /// Direction of its normal in the cross-section, an angle from n towards z: "90 deg" carries along z. Default: 0.
+    normal: Option<Quantity>,
+}
+
 /// A table that has some keys of others.
 macro_rules! some_keys {
     ($name:ident: $($of:ty),+; without $without:expr; required $required:expr; $doc:literal) => {
@@ -155,8 +170,8 @@ some_keys!(DiscOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", 
     required ["centre", "radius"]; "A disc on a straight face, which it may leave.");
 some_keys!(DiscContactTable: CornerTable, DiscOnDiscTable; without []; required [];
     "A disc on a disc, or in a hole, which it may leave.");
-some_keys!(EndTable: ContactTable; without ["at"]; required []; "What differs at one end of a block.");
-some_keys!(SupportTable: ContactTable; without []; required ["at"]; "A further contact of a block.");
+some_keys!(EndTable: ContactTable, SectionTable; without ["at"]; required []; "What differs at one end of a block.");
+some_keys!(SupportTable: ContactTable, SectionTable; without []; required ["at"]; "A further contact of a block.");
 some_keys!(StopAtEndTable: StopTable; without ["least", "greatest"]; required [];
     "What stops a block at one end of its travel.");
 
@@ -222,12 +237,29 @@ fn either_schema(first: &Schema, second: &Schema) -> Schema {
     json_schema!({ "anyOf": [first, second] })
 }
 
+impl JsonSchema for InSpace {
+    fn inline_schema() -> bool {
+        true
+    }
+    fn schema_name() -> Cow<'static, str> {
+        "InSpace".into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "items": generator.subschema_for::<Quantity>(),
+            "maxItems": 3,
+            "minItems": 2,
+            "type": "array"
+        })
+    }
+}
+
 impl JsonSchema for Place {
     fn schema_name() -> Cow<'static, str> {
         "Place".into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<Components>())
+        either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<InSpace>())
     }
 }
 
@@ -263,7 +295,7 @@ impl JsonSchema for Gravity {
         "Gravity".into()
     }
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Components>())
+        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<InSpace>())
     }
 }
 

@@ -7,7 +7,7 @@ use super::file::{
     ForceTable, HingeTable, SliderTable, SpringTable, TableTable, TorqueTable, TorsionalDamperTable,
     TorsionalSpringTable,
 };
-use super::quantity::{Components, Gravity, Name, Quantity};
+use super::quantity::{Gravity, InSpace, Name, Quantity};
 use super::structure::StructureCheck;
 use crate::expression::ExpressionFaultKind;
 use crate::fault::{Fault, FaultKind, Faults, Place};
@@ -25,7 +25,7 @@ pub(super) struct Sections {
     pub(super) units: Option<UnitSystem>,
     pub(super) parameters: Vec<Entry<Quantity>>,
     pub(super) tables: Vec<Entry<TableTable>>,
-    pub(super) points: Vec<Entry<Components>>,
+    pub(super) points: Vec<Entry<InSpace>>,
     pub(super) bodies: Vec<Entry<BodyTable>>,
     pub(super) joints: Vec<Entry<JointContents>>,
     pub(super) loads: Vec<Entry<LoadContents>>,

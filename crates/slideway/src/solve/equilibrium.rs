@@ -7,7 +7,7 @@ use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::{ContactFriction, HingeState};
 use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
-use crate::mechanism::{JointKind, Mechanism};
+use crate::mechanism::{Attachment, BodyInSpace, JointKind, Mechanism};
 use nalgebra::{DVector, Vector2};
 
 /// What is left over in the balance of a body.
@@ -43,7 +43,9 @@ impl Balance<'_> {
         let size = self.mechanism.size;
         let greatest = forces
             .iter()
-            .map(|wrench| length(wrench.force).max(wrench.couple.abs() / size))
+            .map(|wrench| {
+                length(wrench.force).max(wrench.couple.abs() / size).max(out_of_plane(wrench, size))
+            })
             .fold(0.0, f64::max);
         (0..self.mechanism.bodies.len()).map(|body| self.residual(BodyId(body), &forces, greatest)).collect()
     }
@@ -52,7 +54,7 @@ impl Balance<'_> {
     fn forces(&self) -> Vec<Wrench> {
         let mut forces = self.applied.to_vec();
         for (index, reaction) in self.layout.reactions().iter().enumerate() {
-            let value = self.unknowns[3 * self.mechanism.bodies.len() + index];
+            let value = self.unknowns[self.layout.accelerations() + index];
             forces.extend(self.reaction(*reaction, value));
         }
         for hinge in self.hinges {
@@ -66,6 +68,7 @@ impl Balance<'_> {
         for (index, drive) in self.mechanism.drives.iter().enumerate() {
             let value = self.unknowns[self.layout.effort(crate::ids::DriveId(index))];
             for unit in effort_forces(self.mechanism, self.configuration, &drive.effort) {
+                // An effort is a force in the plane or a couple about z.
                 forces.push(Wrench { force: value * unit.force, couple: value * unit.couple, ..unit });
             }
         }
@@ -83,33 +86,51 @@ impl Balance<'_> {
             Reaction::Normal(contact) => {
                 let state = &self.contacts[contact.index()];
                 let joint = self.mechanism.contacts[contact.index()].joint;
-                self.on_slider(joint, state.point, self.normal_force[contact.index()] * state.normal, 0.0)
+                let normal = self.normal_force[contact.index()];
+                let on = |frame: Frame, sign: f64| {
+                    let force = Wrench::force(frame, state.point, sign * normal * state.normal);
+                    force.in_space(state.z, sign * normal * state.along_z())
+                };
+                self.on_both(joint, on)
             }
-            Reaction::Couple(joint) => self.on_slider(joint, Vector2::zeros(), Vector2::zeros(), value),
+            Reaction::Couple(joint) => {
+                let nothing = |frame| Wrench::force(frame, Vector2::zeros(), Vector2::zeros());
+                self.on_both(joint, |frame, sign| Wrench { couple: sign * value, ..nothing(frame) })
+            }
+            Reaction::Carried(joint, component) => self.carried(joint, component, value),
         }
+    }
+
+    /// What a joint carries out of the drawing without friction, on both bodies.
+    fn carried(&self, joint: JointId, component: usize, value: f64) -> Vec<Wrench> {
+        let joined = self.mechanism.joints[joint.index()].joined();
+        let (position, z) = joined.place;
+        let attachment = Attachment { frame: joined.frames[0], position, z };
+        let place = self.configuration.position(self.mechanism, &attachment);
+        let on = |frame: Frame, sign: f64| {
+            let nothing = Wrench::force(frame, place, Vector2::zeros());
+            match component {
+                0 => nothing.in_space(z, sign * value),
+                _ => {
+                    let axis = self.configuration.direction(joined.axes_of, joined.axes[component - 1]);
+                    Wrench { tilt: sign * value * axis, ..nothing }
+                }
+            }
+        };
+        vec![on(joined.frames[0], 1.0), on(joined.frames[1], -1.0)]
     }
 
     fn hinge(&self, joint: JointId, force: Vector2<f64>) -> Vec<Wrench> {
         let JointKind::Hinge(ends) = &self.mechanism.joints[joint.index()].kind else { return Vec::new() };
-        let on = |end: usize, force: Vector2<f64>| Wrench {
-            frame: ends[end].frame,
-            place: self.configuration.position(self.mechanism, &ends[end]),
-            force,
-            couple: 0.0,
+        let on = |end: usize, force: Vector2<f64>| {
+            let place = self.configuration.position(self.mechanism, &ends[end]);
+            Wrench::force(ends[end].frame, place, force).in_space(ends[end].z, 0.0)
         };
         vec![on(0, force), on(1, -force)]
     }
 
-    fn on_slider(
-        &self,
-        joint: JointId,
-        place: Vector2<f64>,
-        force: Vector2<f64>,
-        couple: f64,
-    ) -> Vec<Wrench> {
+    fn on_both(&self, joint: JointId, on: impl Fn(Frame, f64) -> Wrench) -> Vec<Wrench> {
         let Some(slider) = self.mechanism.slider(joint) else { return Vec::new() };
-        let on =
-            |frame: Frame, sign: f64| Wrench { frame, place, force: sign * force, couple: sign * couple };
         vec![on(slider.block, 1.0), on(slider.guide, -1.0)]
     }
 
@@ -126,12 +147,40 @@ impl Balance<'_> {
             sum += wrench.force;
             moment += wrench.place.perp(&wrench.force) + wrench.couple;
         }
-        let (force, moment) = (length(sum), moment.abs());
+        let [along_z, tilt] = self.out_of_plane(body, forces, inertia);
+        let (force, moment) = (length(sum).max(along_z), moment.abs().max(tilt));
         let left_over = force.max(moment / self.mechanism.size);
         // Below the least normal number forces have no relative accuracy.
         let relative = left_over / greatest.max(length(inertia)).max(f64::MIN_POSITIVE);
         Residual { force, moment, relative }
     }
+}
+
+impl Balance<'_> {
+    /// Sum of forces along z, and of moments about x and y through the origin without those of m a and of the products of
+    /// inertia, (S1); nothing in a planar model.
+    fn out_of_plane(&self, body: BodyId, forces: &[Wrench], inertia: Vector2<f64>) -> [f64; 2] {
+        let Some(space) = &self.mechanism.space else { return [0.0; 2] };
+        let BodyInSpace { z, products, .. } = space.bodies[body.index()];
+        let products = self.configuration.direction(Frame::Body(body), products.into());
+        let turning = self.unknowns[self.layout.acceleration(body) + 2];
+        let spin = self.configuration.velocities[body.index()].angular.powi(2);
+        let mut along_z = 0.0;
+        let mut tilt = products * turning - Vector2::new(products.y, -products.x) * spin;
+        tilt -= Vector2::new(-z * inertia.y, z * inertia.x);
+        for wrench in forces.iter().filter(|wrench| wrench.frame == Frame::Body(body)) {
+            along_z += wrench.along_z;
+            let Wrench { place, force, .. } = wrench;
+            tilt.x += place.y * wrench.along_z - wrench.z * force.y + wrench.tilt.x;
+            tilt.y += wrench.z * force.x - place.x * wrench.along_z + wrench.tilt.y;
+        }
+        [along_z.abs(), length(tilt)]
+    }
+}
+
+/// The greatest part of a wrench out of the plane, as a force.
+fn out_of_plane(wrench: &Wrench, size: f64) -> f64 {
+    wrench.along_z.abs().max(length(wrench.tilt) / size)
 }
 
 /// The length of a vector whose squares may be too small for a number.

@@ -57,7 +57,12 @@ impl Sliding {
         let staying = if is_at_rest { Vec::new() } else { staying(mechanism, configuration, &joints)? };
         let stays = |id: &ContactId| staying.contains(&mechanism.contacts[id.index()].joint);
         let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.into_iter().partition(stays);
-        let Some(first) = undefined.first() else { return Ok(Self { signs, standing }) };
+        let Some(first) = undefined.first() else {
+            if !standing.is_empty() {
+                mechanism.check_planar("the friction of contacts that stand still")?;
+            }
+            return Ok(Self { signs, standing });
+        };
         let first_slides =
             |state: &Configuration| vec![sliding_signs(mechanism, state)[first.index()] != 0.0];
         let why = why(mechanism, configuration, (1, &first_slides)).pop();

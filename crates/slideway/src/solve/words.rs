@@ -46,8 +46,55 @@ pub(crate) fn joint_mode(
     (None, on_guide(mechanism, slider, tangent, signs))
 }
 
+/// A contact with the sign of its normal force.
+type Pressed<'a> = (&'a Contact, i8);
+
+/// The contact mode in space: the contacts whose normals lie in the drawing as in the plane, then on which of the others the
+/// block rests, from which it hangs, and how it is turned where it does both.
+fn in_cross_section(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
+    let guide = GuideInWords { tangent, around: slider.around };
+    let contacts = slider.contacts.iter().map(|contact| &mechanism.contacts[contact.index()]);
+    let all: Vec<Pressed<'_>> = contacts.zip(signs.iter().copied()).collect();
+    let (leaning, upright): (Vec<Pressed<'_>>, Vec<Pressed<'_>>) =
+        all.into_iter().partition(|(contact, _)| contact.lean.is_some());
+    let mut words: Vec<String> = match upright.as_slice() {
+        [] => Vec::new(),
+        [(_, front), (_, rear)] => vec![mode_in_words(slider, tangent, &[*front, *rear])],
+        more => {
+            let place = |sign: i8| match sign {
+                0 => "without force".to_owned(),
+                sign => format!("on the {} face", guide.face(sign)),
+            };
+            more.iter()
+                .map(|(contact, sign)| format!("{} {}", contact.place_in_joint(), place(*sign)))
+                .collect()
+        }
+    };
+    let [rests, hangs] = [1, -1].map(|side| {
+        leaning.iter().filter(|(_, sign)| *sign == side).map(|(contact, _)| *contact).collect::<Vec<_>>()
+    });
+    for (verb, contacts) in [("rests on", &rests), ("hangs from", &hangs)] {
+        let names: Vec<&str> = contacts.iter().map(|contact| contact.place_in_joint()).collect();
+        words.extend((!names.is_empty()).then(|| format!("{verb} {}", names.join(", "))));
+    }
+    let differ = |distance: &dyn Fn(&Contact) -> f64| {
+        let mean = |contacts: &[&Contact]| {
+            contacts.iter().map(|one| distance(one)).sum::<f64>() / contacts.len() as f64
+        };
+        (mean(&rests) - mean(&hangs)).abs() > 1e-9 * mechanism.size
+    };
+    if !rests.is_empty() && !hangs.is_empty() {
+        words.extend(differ(&|contact| contact.offset).then(|| "pitched".to_owned()));
+        words.extend(differ(&|contact| contact.aside[0]).then(|| "rolled".to_owned()));
+    }
+    words.join(", ")
+}
+
 fn on_guide(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
     let guide = GuideInWords { tangent, around: slider.around };
+    if mechanism.space.is_some() && slider.kind == SliderKind::Block {
+        return in_cross_section(mechanism, slider, tangent, signs);
+    }
     if !slider.contacts.iter().any(|contact| mechanism.excess.shares(*contact)) {
         return mode_in_words(slider, tangent, signs);
     }
@@ -87,10 +134,20 @@ fn on_guide(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs
             _ => place(*first),
         },
         _ => {
-            let name = |name: &str| name.rsplit_once('.').map_or(name, |(_, end)| end).to_owned();
-            let each = contacts.iter().map(|(contact, sign)| format!("{} {}", name(contact), place(*sign)));
+            let each = contacts.iter().map(|(contact, sign)| format!("{} {}", end_of(contact), place(*sign)));
             each.collect::<Vec<_>>().join(", ")
         }
+    }
+}
+
+/// The name of a contact within its joint.
+fn end_of(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(_, end)| end)
+}
+
+impl Contact {
+    fn place_in_joint(&self) -> &str {
+        end_of(&self.name)
     }
 }
 

@@ -78,6 +78,7 @@ impl Setup {
     /// The end of the work; what makes no sense in the model or its position, an unknown load, a load that is zero.
     pub(super) fn new(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
+        original.check_planar("rest")?;
         original.check_size()?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();

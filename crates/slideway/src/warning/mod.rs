@@ -25,7 +25,6 @@ use crate::kinetics::KineticEquations;
 use crate::mechanism::{BareCorner, Contact, Coordinate, CoordinateKind, FrictionCircle, Mechanism};
 use crate::model::{Along, Effort, ForceValue, Gravity, JointKind, LoadKind, Model};
 use crate::report::number::number;
-use nalgebra::Vector2;
 use serde::Serialize;
 use std::cell::LazyCell;
 use std::f64::consts::TAU;
@@ -134,13 +133,13 @@ pub fn ranges_at_middle(model: &Model) -> Faults {
 }
 
 fn great_gravity(model: &Model, mechanism: &Mechanism) -> Option<Fault> {
-    let gravity = mechanism.gravity.norm();
+    let gravity = mechanism.free_fall();
     if gravity <= GREAT_GRAVITY {
         return None;
     }
     let formula = match model.gravity {
         Gravity::None => return None,
-        Gravity::Down(id) | Gravity::Components([_, id]) => id,
+        Gravity::Down(id) | Gravity::Components(_, Some(id)) | Gravity::Components([_, id], None) => id,
     };
     let doubt = Doubt::GreatGravity { value: mechanism.units.of("m/s^2").show(gravity) };
     let place = model.setting_of(&[formula]).unwrap_or_else(|| model.formula(formula).origin.place());
@@ -152,7 +151,7 @@ fn no_loads(mechanism: &Mechanism) -> Option<Fault> {
     let loads = mechanism.loads.len() + mechanism.drives.len();
     let presses = |contact: &Contact| rubs(contact) || is_displaced(contact);
     let is_idle = loads == 0
-        && mechanism.gravity == Vector2::zeros()
+        && mechanism.free_fall() == 0.0
         && mechanism.contacts.iter().any(is_rough)
         && !mechanism.contacts.iter().any(presses);
     is_idle.then(|| Fault::general(FaultKind::Doubt(Doubt::NoLoads)))

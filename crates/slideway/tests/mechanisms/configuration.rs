@@ -284,7 +284,7 @@ fn a_drawing_that_closes_only_roughly_is_closed_by_newton() {
     let (mechanism, configuration) = of_text(&text, &Settings::default()).unwrap();
     let place = |name: &str, drawn: [f64; 2]| {
         let frame = slideway::ids::Frame::Body(slideway::ids::BodyId(body(&mechanism, name)));
-        let point = slideway::mechanism::Attachment { frame, position: Vector2::new(drawn[0], drawn[1]) };
+        let point = slideway::mechanism::Attachment::new(frame, Vector2::new(drawn[0], drawn[1]));
         configuration.position(&mechanism, &point)
     };
     let coupler = place("coupler", exact);
@@ -327,7 +327,7 @@ fn trammel_points_run_on_ellipses() {
         let [a, b] = [[0.5 * 55_f64.to_radians().cos(), 0.0], [0.0, 0.5 * 55_f64.to_radians().sin()]];
         for share in [0.0, 0.25, 0.5, 1.0] {
             let drawn = Vector2::new(a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1]));
-            let point = slideway::mechanism::Attachment { frame, position: drawn };
+            let point = slideway::mechanism::Attachment::new(frame, drawn);
             let place = configuration.position(&mechanism, &point);
             let (p, q) = (0.5 * share, 0.5 * (1.0 - share));
             assert_vector(place, [-q * theta.cos(), p * theta.sin()], 1.0);

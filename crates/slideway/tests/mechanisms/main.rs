@@ -48,6 +48,7 @@ mod redundant;
 mod redundant_closed_forms;
 mod redundant_rest;
 mod rest;
+mod space;
 mod speeds;
 mod standing;
 mod standstill;

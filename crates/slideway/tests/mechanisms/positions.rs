@@ -191,7 +191,7 @@ fn a_four_bar_linkage_near_its_limit_position(
     for psi in [limit + 1e-11, limit + 1e-6, limit + 0.1, limit + 0.6] {
         let mechanism = at(&model, &[("turn", psi - drawn)]);
         let state = Configuration::new(&mechanism).unwrap();
-        let found = state.position(&mechanism, &Attachment { frame: Frame::Body(BodyId(0)), position: a });
+        let found = state.position(&mechanism, &Attachment::new(Frame::Body(BodyId(0)), a));
         let far = (psi - limit).sqrt();
         assert!((found - pins(psi)[0]).norm() < 1e-12 + 1e-14 / far, "{psi}");
     }
@@ -260,7 +260,7 @@ fn a_grid_of_two_coordinates_is_what_each_way_gives() {
             let mechanism = at(&model, &[("phi", values[0]), ("psi", values[1])]);
             let along = follower.configuration(&mechanism).unwrap();
             let direct = Configuration::new(&mechanism).unwrap();
-            let point = Attachment { frame: Frame::Body(BodyId(2)), position: b };
+            let point = Attachment::new(Frame::Body(BodyId(2)), b);
             for state in [&along, &direct] {
                 assert!((state.position(&mechanism, &point) - pins(values)[2]).norm() < 1e-12, "{values:?}");
             }

@@ -16,6 +16,7 @@ fn words(kind: SliderKind, height: f64, angle: f64, signs: &[i8]) -> String {
         kind,
         block: slideway::ids::Frame::Body(slideway::ids::BodyId(0)),
         guide: slideway::ids::Frame::Ground,
+        z: 0.0,
         at: Vector2::zeros(),
         tangent: Vector2::x(),
         length: 1.0,

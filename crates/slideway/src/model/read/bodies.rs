@@ -1,7 +1,7 @@
 //! Points and bodies.
 
 use super::super::file::{BodyTable, Entry, ShapeTable};
-use super::super::quantity::{Components, Name, OutlinePlace, Span, Through};
+use super::super::quantity::{InSpace, Name, OutlinePlace, Span, Through};
 use super::super::{Attachment, Body, Inertia, Moment, NamedPoint, OutlineCorner};
 use super::{Reader, Wanted};
 use crate::expression::Dimension;
@@ -10,16 +10,16 @@ use crate::ids::{BodyId, FormulaId, Frame};
 use std::sync::Arc;
 
 impl Reader<'_> {
-    pub(super) fn read_points(&mut self, entries: Vec<Entry<Components>>) {
+    pub(super) fn read_points(&mut self, entries: Vec<Entry<InSpace>>) {
         for entry in entries {
             self.valid_name("point", &entry.name, &entry.span);
-            let position = match &entry.contents {
-                Some(components) => {
-                    self.components(components, &format!("the point {}", entry.name), Dimension::LENGTH)
+            let (position, z) = match &entry.contents {
+                Some(written) => {
+                    self.in_space(written, &format!("the point {}", entry.name), Dimension::LENGTH)
                 }
-                None => [self.broken(&entry.span); 2],
+                None => ([self.broken(&entry.span); 2], None),
             };
-            let point = NamedPoint { name: Arc::from(entry.name.as_str()), position };
+            let point = NamedPoint { name: Arc::from(entry.name.as_str()), position, z };
             self.points.insert(entry.name, point);
         }
     }
@@ -109,6 +109,7 @@ impl Reader<'_> {
                 ("moment_of_inertia", table.moment_of_inertia.is_some()),
                 ("shape", table.shape.is_some()),
                 ("centre_of_mass", table.centre_of_mass.is_some()),
+                ("products_of_inertia", table.products_of_inertia.is_some()),
             ];
             for (second, _) in beside.into_iter().filter(|(_, given)| massless && *given) {
                 self.fault(FaultKind::Both { owner: owner.clone(), first: "massless", second }, span);
@@ -129,8 +130,15 @@ impl Reader<'_> {
             (Moment::Bar(_), None) | (_, Some(_)) => {}
             (_, None) => self.fault(FaultKind::NoneOf { owner, one_of: vec!["centre_of_mass"] }, span),
         }
-        let centre_of_mass = centre.map(|place| self.place(place, &format!("the centre of mass of {name}")));
-        Inertia::Massive { mass, centre_of_mass, moment }
+        let centre = centre.map(|place| self.place_in_space(place, &format!("the centre of mass of {name}")));
+        let what = format!("the product of inertia of {name}");
+        let products = table.products_of_inertia.as_ref().map(|products| {
+            products.each_ref().map(|product| {
+                self.formula(product, Wanted::constant(what.clone(), Dimension::MOMENT_OF_INERTIA))
+            })
+        });
+        let (centre_of_mass, z) = (centre.map(|(place, _)| place), centre.and_then(|(_, z)| z));
+        Inertia::Massive { mass, centre_of_mass, z, products, moment }
     }
 
     fn moment(&mut self, table: &BodyTable, name: &str, span: &Span) -> Moment {
@@ -156,26 +164,37 @@ impl Reader<'_> {
     fn shape(&mut self, shape: &ShapeTable, name: &str, span: &Span) -> Moment {
         let size =
             |what: &str| Wanted::constant(format!("the {what} of {name}"), Dimension::LENGTH).not_negative();
-        match (&shape.bar, &shape.rectangle, &shape.disc) {
-            (Some(ends), None, None) => {
-                let what = format!("the end of {name}");
-                Moment::Bar([self.place(&ends[0], &what), self.place(&ends[1], &what)])
+        let given = [
+            ("bar", shape.bar.is_some()),
+            ("rectangle", shape.rectangle.is_some()),
+            ("box", shape.cuboid.is_some()),
+            ("disc", shape.disc.is_some()),
+        ];
+        let mut names = given.iter().filter(|(_, is_given)| *is_given).map(|(name, _)| *name);
+        let owner = format!("the shape of {name}");
+        match [names.next(), names.next()] {
+            [None, _] => {
+                let one_of = given.map(|(name, _)| name).to_vec();
+                self.fault(FaultKind::NoneOf { owner, one_of }, span);
             }
-            (None, Some([width, height]), None) => {
-                Moment::Rectangle([self.formula(width, size("width")), self.formula(height, size("height"))])
-            }
-            (None, None, Some(radius)) => Moment::Disc(self.formula(radius, size("radius"))),
-            (None, None, None) => {
-                let owner = format!("the shape of {name}");
-                self.fault(FaultKind::NoneOf { owner, one_of: vec!["bar", "rectangle", "disc"] }, span);
-                Moment::Given(self.zero)
-            }
-            (bar, rectangle, _) => {
-                let first = if bar.is_some() { "bar" } else { "rectangle" };
-                let second = if bar.is_some() && rectangle.is_some() { "rectangle" } else { "disc" };
-                self.fault(FaultKind::Both { owner: format!("the shape of {name}"), first, second }, span);
-                Moment::Given(self.zero)
-            }
+            [Some(first), Some(second)] => self.fault(FaultKind::Both { owner, first, second }, span),
+            [Some(_), None] => {}
+        }
+        if let Some([from, to]) = &shape.bar {
+            let what = format!("the end of {name}");
+            Moment::Bar([self.place(from, &what), self.place(to, &what)])
+        } else if let Some([width, height]) = &shape.rectangle {
+            Moment::Rectangle([self.formula(width, size("width")), self.formula(height, size("height"))])
+        } else if let Some([width, height, depth]) = &shape.cuboid {
+            Moment::Box([
+                self.formula(width, size("width")),
+                self.formula(height, size("height")),
+                self.formula(depth, size("depth")),
+            ])
+        } else if let Some(radius) = &shape.disc {
+            Moment::Disc(self.formula(radius, size("radius")))
+        } else {
+            Moment::Given(self.zero)
         }
     }
 
@@ -186,7 +205,7 @@ impl Reader<'_> {
         };
         let frame = self.frame(&Name { text: body.to_owned(), span: name.span.clone() });
         let known = self.points.contains_key(point);
-        let NamedPoint { name: point_name, position } = self.point(name);
+        let NamedPoint { name: point_name, position, z } = self.point(name);
         let owners = self.owners.get(point).cloned().unwrap_or_default();
         if let (Frame::Body(body), true) = (frame, known)
             && !owners.contains(&body)
@@ -199,11 +218,11 @@ impl Reader<'_> {
             };
             self.fault(kind, &name.span);
         }
-        Attachment { frame, name: point_name, position }
+        Attachment { frame, name: point_name, position, z }
     }
 
     fn attachment_by_point(&mut self, name: &Name) -> Attachment {
-        let NamedPoint { name: point_name, position } = self.point(name);
+        let NamedPoint { name: point_name, position, z } = self.point(name);
         let owners = self.owners.get(&name.text).cloned().unwrap_or_default();
         let frame = match owners.as_slice() {
             [] => Frame::Ground,
@@ -214,6 +233,6 @@ impl Reader<'_> {
                 Frame::Ground
             }
         };
-        Attachment { frame, name: point_name, position }
+        Attachment { frame, name: point_name, position, z }
     }
 }

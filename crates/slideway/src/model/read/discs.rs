@@ -29,6 +29,7 @@ impl Reader<'_> {
             block: block.frame,
             guide: guide.frame,
             at,
+            z: None,
             along: Along::Across(if inside { [at, centre] } else { [centre, at] }),
             length: None,
             height: None,

@@ -1,7 +1,8 @@
 //! Hinges and the three sliding joints.
 
 use super::super::file::{
-    CarriedBy, Closed, ContactTable, End, Entry, Fit, PadTable, PreloadLine, SliderTable, StopTable,
+    CarriedBy, Closed, ContactTable, End, Entry, Fit, HingeCarries, PadTable, PreloadLine, SliderCarries,
+    SliderTable, StopTable,
 };
 use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
@@ -19,6 +20,22 @@ fn touches(joint: &SliderTable) -> Touches {
         Some(Closed::All(false)) => Touches::Nothing,
         Some(Closed::One([End::Front])) => Touches::Front,
         Some(Closed::One([End::Rear])) => Touches::Rear,
+    }
+}
+
+/// What a joint carries out of the drawing, if it says so.
+fn carried(contents: &JointContents) -> Option<[bool; 3]> {
+    match contents {
+        JointContents::Hinge(table) => table.carries.map(|carries| match carries {
+            HingeCarries::All => [true; 3],
+            HingeCarries::Z => [true, false, false],
+            HingeCarries::Tilt => [false, true, true],
+            HingeCarries::Nothing => [false; 3],
+        }),
+        JointContents::Slider(slider) => slider.joint.carries.as_ref().map(|carries| {
+            [SliderCarries::Z, SliderCarries::Roll, SliderCarries::Pitch].map(|one| carries.contains(&one))
+        }),
+        JointContents::DiscOnDisc(_) => None,
     }
 }
 
@@ -72,7 +89,9 @@ impl Reader<'_> {
                     JointKind::Slider(Box::new(self.disc_on_disc(discs, &entry.name, &entry.span)))
                 }
             };
-            joints.push(Joint { name: Arc::from(entry.name), place: FaultPlace::model(entry.span), kind });
+            let carries = entry.contents.as_ref().and_then(carried);
+            let place = FaultPlace::model(entry.span);
+            joints.push(Joint { name: Arc::from(entry.name), place, carries, kind });
         }
         joints
     }
@@ -88,11 +107,13 @@ impl Reader<'_> {
         let touches = touches(joint);
         let apart = if *opens { self.open(&mut contacts, touches) } else { Vec::new() };
         let length = Wanted::constant(format!("the length of {name}"), Dimension::LENGTH).positive();
+        let (at, z) = self.place_in_space(&joint.at, &format!("the place of {name}"));
         Slider {
             kind: *kind,
             block: self.frame(&joint.block),
             guide: self.frame_or_ground(joint.guide.as_ref()),
-            at: self.place(&joint.at, &format!("the place of {name}")),
+            at,
+            z,
             along: self.along_of(joint, name, span),
             length: joint.length.as_ref().map(|quantity| self.formula(quantity, length)),
             height: self.height(joint.height.as_ref(), name),
@@ -178,7 +199,18 @@ impl Reader<'_> {
             let friction = self.friction(table, false, &contact, span).or(all);
             let wanted = Wanted::constant(format!("the place of {contact}"), Dimension::LENGTH);
             let offset = table.at.as_ref().map(|at| self.formula(at, wanted));
-            contacts.push(Contact { offset, ..self.contact(friction, contact, name, span) });
+            let of = |what: &str, dimension| Wanted::constant(format!("the {what} of {contact}"), dimension);
+            let mut read = |written: &Option<Quantity>, wanted: Wanted| {
+                written.as_ref().map(|written| self.formula(written, wanted))
+            };
+            let aside = [
+                read(&table.aside, of("distance aside", Dimension::LENGTH)),
+                read(&table.z, of("distance along z", Dimension::LENGTH)),
+            ];
+            let normal = read(&table.normal, of("normal", Dimension::ANGLE));
+            let height = read(&table.height, of("height", Dimension::LENGTH).not_negative());
+            let rest = self.contact(friction, contact, name, span);
+            contacts.push(Contact { offset, aside, normal, height, ..rest });
         }
         contacts
     }
@@ -371,6 +403,9 @@ impl Reader<'_> {
             preload: friction.preload.map_or([None; 2], |preload| preload.map(Some)),
             preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
             offset: None,
+            aside: [None; 2],
+            normal: None,
+            height: None,
             stiffness: friction.stiffness,
             play: friction.play,
             misalignment: friction.misalignment,

@@ -1,7 +1,7 @@
 //! Forces, torques, springs and dampers.
 
-use super::super::file::{Entry, ForceFrame, ForceTable};
-use super::super::quantity::{Name, Span};
+use super::super::file::{Entry, ForceFrame, ForceTable, TorqueTable};
+use super::super::quantity::{InSpace, Name, Quantity, Span};
 use super::super::sections::LoadContents;
 use super::super::{Attachment, ForceValue, Load, LoadKind};
 use super::{Reader, Wanted};
@@ -26,14 +26,7 @@ impl Reader<'_> {
             |what: &str, dimension| Wanted::moving(format!("the {what} of {name}"), dimension).not_negative();
         match contents {
             LoadContents::Force(table) => self.force(table, name, span),
-            LoadContents::Torque(table) => LoadKind::Torque {
-                body: self.frame(&table.body),
-                moment: self.formula(
-                    &table.moment,
-                    Wanted::moving(format!("the moment of {name}"), Dimension::TORQUE),
-                ),
-                reaction: table.reaction.as_ref().map(|body| self.frame(body)),
-            },
+            LoadContents::Torque(table) => self.torque(table, name, span),
             LoadContents::Spring(table) => {
                 let free =
                     Wanted::moving(format!("the free length of {name}"), Dimension::LENGTH).not_negative();
@@ -63,6 +56,31 @@ impl Reader<'_> {
         }
     }
 
+    fn torque(&mut self, table: &TorqueTable, name: &str, span: &Span) -> LoadKind {
+        let body = self.frame(&table.body);
+        let mut moment = |quantity: &Quantity| {
+            self.formula(quantity, Wanted::moving(format!("the moment of {name}"), Dimension::TORQUE))
+        };
+        let (moment, tilt) = match (&table.moment, &table.moments) {
+            (Some(written), None) => (moment(written), None),
+            (None, Some([x, y, z])) => {
+                let tilt = [moment(x), moment(y)];
+                (moment(z), Some(tilt))
+            }
+            (written, _) => {
+                let owner = format!("the load {name}");
+                let kind = match written {
+                    Some(_) => FaultKind::Both { owner, first: "moment", second: "moments" },
+                    None => FaultKind::NoneOf { owner, one_of: vec!["moment", "moments"] },
+                };
+                self.fault(kind, span);
+                (self.zero, None)
+            }
+        };
+        let reaction = table.reaction.as_ref().map(|body| self.frame(body));
+        LoadKind::Torque { body, moment, tilt, reaction }
+    }
+
     fn ends(&mut self, between: &[Name; 2]) -> [Attachment; 2] {
         between.each_ref().map(|end| self.attachment(end))
     }
@@ -70,11 +88,15 @@ impl Reader<'_> {
     fn force(&mut self, table: &ForceTable, name: &str, span: &Span) -> LoadKind {
         let owner = format!("the load {name}");
         let wanted = |what: &str| Wanted::moving(format!("{what} of {name}"), Dimension::FORCE);
+        let mut along_z = None;
         let force = match (&table.components, &table.magnitude, &table.direction) {
-            (Some([x, y]), None, None) => ForceValue::Components([
-                self.formula(x, wanted("the x component")),
-                self.formula(y, wanted("the y component")),
-            ]),
+            (Some(InSpace { components: [x, y], z }), None, None) => {
+                along_z = z.as_ref().map(|z| self.formula(z, wanted("the z component")));
+                ForceValue::Components([
+                    self.formula(x, wanted("the x component")),
+                    self.formula(y, wanted("the y component")),
+                ])
+            }
             (None, Some(magnitude), Some(direction)) => ForceValue::Along(
                 self.formula(magnitude, wanted("the magnitude")),
                 self.along(direction, &format!("the direction of {name}")),
@@ -98,6 +120,7 @@ impl Reader<'_> {
         LoadKind::Force {
             at: self.attachment(&table.at),
             force,
+            along_z,
             frame: table.frame.unwrap_or(ForceFrame::World),
             reaction: table.reaction.as_ref().map(|body| self.frame(body)),
         }

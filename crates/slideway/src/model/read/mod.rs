@@ -12,7 +12,7 @@ mod loads;
 mod tables;
 
 use super::formula::{Allowed, Formula, Origin, Varies, expression_start};
-use super::quantity::{Components, Direction, Gravity as WrittenGravity, Name, Place, Quantity};
+use super::quantity::{Components, Direction, Gravity as WrittenGravity, InSpace, Name, Place, Quantity};
 use super::range::{Parsed, parse_value};
 use super::sections::{JointContents, Sections, sections};
 use super::structure::STAND_IN;
@@ -286,6 +286,18 @@ impl<'t> Reader<'t> {
         ]
     }
 
+    /// Components in the drawing, and the one out of it if it is given.
+    fn in_space(
+        &mut self,
+        written: &InSpace,
+        what: &str,
+        dimension: Dimension,
+    ) -> ([FormulaId; 2], Option<FormulaId>) {
+        let components = self.components(&written.components, what, dimension);
+        let wanted = Wanted::constant(format!("the z component of {what}"), dimension);
+        (components, written.z.as_ref().map(|z| self.formula(z, wanted)))
+    }
+
     fn parameters(&mut self, entries: Vec<super::file::Entry<Quantity>>) -> Vec<Parameter> {
         let mut parameters = Vec::new();
         for entry in entries {
@@ -312,7 +324,8 @@ impl<'t> Reader<'t> {
                 Gravity::Down(self.formula(quantity, Wanted::constant("gravity", Dimension::ACCELERATION)))
             }
             Some(WrittenGravity::Components(components)) => {
-                Gravity::Components(self.components(components, "gravity", Dimension::ACCELERATION))
+                let (components, z) = self.in_space(components, "gravity", Dimension::ACCELERATION);
+                Gravity::Components(components, z)
             }
         }
     }
@@ -356,9 +369,17 @@ impl<'t> Reader<'t> {
 
     /// A place of the drawing, whatever it belongs to.
     fn place(&mut self, place: &Place, what: &str) -> [FormulaId; 2] {
+        self.place_in_space(place, what).0
+    }
+
+    /// A place of the drawing, and how far it is out of it if that is given.
+    fn place_in_space(&mut self, place: &Place, what: &str) -> ([FormulaId; 2], Option<FormulaId>) {
         match place {
-            Place::Coordinates(components) => self.components(components, what, Dimension::LENGTH),
-            Place::Point(name) => self.point(name).position,
+            Place::Coordinates(written) => self.in_space(written, what, Dimension::LENGTH),
+            Place::Point(name) => {
+                let NamedPoint { position, z, .. } = self.point(name);
+                (position, z)
+            }
         }
     }
 
@@ -372,7 +393,7 @@ impl<'t> Reader<'t> {
         let unknown = Name { text: bare.to_owned(), span: name.span.clone() };
         self.unknown_name("point", &unknown, known.iter().map(String::as_str));
         let broken = self.broken(&name.span);
-        NamedPoint { name: Arc::from(bare), position: [broken; 2] }
+        NamedPoint { name: Arc::from(bare), position: [broken; 2], z: None }
     }
 
     fn along(&mut self, direction: &Direction, what: &str) -> Along {

@@ -138,7 +138,7 @@ fn lock(
         acceleration: Quantity::Constant(0.0),
         effort: Effort::Force {
             // A point of the guide on its centre line, so that the direction rotates with the guide.
-            at: Attachment { frame: slider.guide, position: slider.at },
+            at: Attachment { frame: slider.guide, position: slider.at, z: slider.z },
             direction: -slider.tangent,
             turns: true,
             reaction: Some(slider.block),

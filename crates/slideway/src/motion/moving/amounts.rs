@@ -126,8 +126,9 @@ fn amounts_of(mechanism: &Mechanism, configuration: &Configuration, load: &Load)
             let changing = (0..2).filter(|index| changes(&components[*index]));
             changing.map(|index| (Amount::Value(components[index]), unit(index))).collect()
         }
-        LoadKind::Torque { body, moment, reaction } if changes(moment) => {
-            let unit = LoadKind::Torque { body: *body, moment: constant(1.0), reaction: *reaction };
+        LoadKind::Torque { body, moment, tilt, reaction } if changes(moment) => {
+            let unit =
+                LoadKind::Torque { body: *body, moment: constant(1.0), tilt: *tilt, reaction: *reaction };
             vec![(Amount::Value(*moment), with(unit))]
         }
         LoadKind::Spring { between, stiffness, free_length }

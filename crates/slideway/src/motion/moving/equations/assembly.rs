@@ -19,7 +19,7 @@ impl Equations<'_> {
             }
         }
         for wrench in &self.applied.wrenches {
-            wrench.add_to(&self.configuration, |row, value| self.unknowns[row] += value);
+            wrench.add_to(self.mechanism, &self.configuration, |row, value| self.unknowns[row] += value);
         }
         self.assemble_constraints();
         self.update_friction()?;
@@ -93,7 +93,7 @@ impl Equations<'_> {
                 }
                 let contact = &self.contacts[k];
                 for wrench in friction_forces(self.mechanism, ContactId(k), contact, side.sign(), 1.0) {
-                    wrench.add_to(&self.configuration, |row, value| {
+                    wrench.add_to(self.mechanism, &self.configuration, |row, value| {
                         self.system.add(row, column, -value * factor * sigma);
                         self.unknowns[row] += value * constant;
                     });
@@ -111,7 +111,9 @@ impl Equations<'_> {
                 self.system.add(effort, column, value);
             }
             for wrench in effort_forces(self.mechanism, &self.configuration, &drive.effort) {
-                wrench.add_to(&self.configuration, |row, value| self.system.add(row, effort, -value));
+                wrench.add_to(self.mechanism, &self.configuration, |row, value| {
+                    self.system.add(row, effort, -value);
+                });
             }
             let prescribed = self.configuration.quantity(self.mechanism, drive.acceleration);
             self.unknowns[effort] =

@@ -68,6 +68,8 @@ impl Equations<'_> {
             Some(Reaction::Couple(joint)) => mechanism
                 .slider(*joint)
                 .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
+            // Of a planar model there is none.
+            Some(Reaction::Carried(..)) => 0.0,
             None => self.off_place(&self.stuck[index - self.layout.reactions().len()]),
         };
         (gap, self.gap_scale(index))
@@ -87,7 +89,7 @@ impl Equations<'_> {
         let Some(slider) = mechanism.slider(joint) else { return 0.0 };
         let geometry = &self.contacts[contact.index()];
         let middle = |frame: Frame| {
-            let attachment = Attachment { frame, position: slider.at };
+            let attachment = Attachment { frame, position: slider.at, z: slider.z };
             configuration.position(mechanism, &attachment)
         };
         let block = middle(slider.block);
