@@ -73,7 +73,8 @@ fn imbalance(state: &State, one: &Successor) -> f64 {
                 balance.add(slider.block, Vector2::zeros(), Vector2::zeros(), value);
                 balance.add(slider.guide, Vector2::zeros(), Vector2::zeros(), -value);
             }
-            Reaction::Normal(_) => {}
+            // Of models in the plane.
+            Reaction::Normal(_) | Reaction::Carried(..) => {}
         }
     }
     let mut worst = 0.0_f64;
