@@ -654,10 +654,19 @@ impl Mechanism {
         };
         check(&|| "the size of the mechanism".into(), None, &[self.size]);
         check(&|| "gravity".into(), None, self.gravity.as_slice());
+        check(&|| "gravity".into(), None, &[self.space.as_ref().map_or(0.0, |space| space.gravity)]);
         for body in &self.bodies {
             let values = [body.mass, body.moment_of_inertia, body.centre_of_mass.x, body.centre_of_mass.y];
             check(
                 &|| format!("the mass, the moment of inertia or the place of {}", body.name),
+                Some(&body.place),
+                &values,
+            );
+        }
+        for (body, in_space) in self.bodies.iter().zip(self.space.iter().flat_map(|space| &space.bodies)) {
+            let values = [in_space.z, in_space.products[0], in_space.products[1]];
+            check(
+                &|| format!("the place or the products of inertia of {}", body.name),
                 Some(&body.place),
                 &values,
             );
@@ -674,6 +683,8 @@ impl Mechanism {
             let place = &self.joints[contact.joint.index()].place;
             let values = [contact.mu, contact.mu_static, contact.preload].concat();
             check(&|| format!("the friction of {}", contact.name), Some(place), &values);
+            let in_section = [contact.aside[0], contact.aside[1], contact.height.unwrap_or_default()];
+            check(&|| format!("the place of {}", contact.name), Some(place), &in_section);
             let elastic = [contact.play, contact.stiffness.unwrap_or_default()];
             check(&|| format!("the play or the stiffness of {}", contact.name), Some(place), &elastic);
         }

@@ -109,13 +109,11 @@ impl Balance<'_> {
         let place = self.configuration.position(self.mechanism, &attachment);
         let on = |frame: Frame, sign: f64| {
             let nothing = Wrench::force(frame, place, Vector2::zeros());
-            match component {
-                0 => nothing.in_space(z, sign * value),
-                _ => {
-                    let axis = self.configuration.direction(joined.axes_of, joined.axes[component - 1]);
-                    Wrench { tilt: sign * value * axis, ..nothing }
-                }
+            if component == 0 {
+                return nothing.in_space(z, sign * value);
             }
+            let axis = self.configuration.direction(joined.axes_of, joined.axes[component - 1]);
+            Wrench { tilt: sign * value * axis, ..nothing }
         };
         vec![on(joined.frames[0], 1.0), on(joined.frames[1], -1.0)]
     }
