@@ -158,7 +158,7 @@ fn of_solve(outcome: Outcome) -> First {
         Tip => Line(solved(TIPPING_PRESS, &[("mu", "1.3")]), "No answer: bed tips"),
         Jam => Line(solved("drawer", &[("mu", "0.7")]), "It jams: no force of push moves it. "),
         SlowsDown => Line(solved(PEG, &[]), "It slows down at "),
-        Rests => Line(solved("ladder", &[]), "It holds. The contacts at rest leave their forces open: "),
+        Rests => Line(solved("ladder", &[]), "It holds. The forces at rest are not determined: "),
         LiftsOff => Line(
             solved("box-on-incline", &[]),
             "It slows down at 5.444 m/s^2 and tips: base.front lifts off.",
@@ -238,7 +238,7 @@ fn of_size(outcome: Outcome) -> First {
         ),
         Tip => Line(
             sized(TIPPING_PRESS, &[], "mu=0.1..1"),
-            "For a safety factor of 1.5 against jamming: mu at most 0.833333 (examined down to 0.1). ",
+            "For a safety factor of 1.5 against jamming and tipping: mu at most 0.833333 (examined down to 0.1). ",
         ),
         Jam => Line(
             sized("drawer", &[("mu", "0.7")], LENGTHS),
@@ -261,7 +261,7 @@ fn of_size(outcome: Outcome) -> First {
         }
         LiftsOff => Line(
             sized("box-on-incline", &[], "mu=0.1..2"),
-            "For a safety factor of 1.5 against jamming: mu at most 0.888889 (examined down to 0.1). ",
+            "For a safety factor of 1.5 against jamming and tipping: mu at most 0.333333 (examined down to 0.1). ",
         ),
         Undecided => Line(
             sized("drawer", &VERGE, "Q=1 N..30 N"),

@@ -26,10 +26,10 @@ fn tipping_ends_the_safety_factor() {
     let limit = solve(&door(&[])).unwrap().margins.unwrap().tipping.unwrap();
     assert_eq!(limit.joints, ["shoes"]);
     assert!((limit.factor - 0.45 / 0.3).abs() < 1e-12, "{limit:?}");
-    // A factor x needs h = b/(2 mu x).
+    // A factor x needs h = b/(2 mu x). A mode is there up to 1e-11 beyond its end.
     for (margin, at) in [(1.0, 1.5), (1.5, 1.0), (2.0, 0.75)] {
         let report = size(&door(&[]), &SizeOptions::new("h".parse::<Vary>().unwrap(), margin)).unwrap();
-        assert!((report.met[0].to - at).abs() < 1e-12 && report.met.len() == 1, "{:?}", report.met);
+        assert!((report.met[0].to - at).abs() < 1e-9 && report.met.len() == 1, "{:?}", report.met);
         assert_eq!(report.tips, ["shoes"]);
     }
     // Where it tips already, friction has to fall to b/(2 h mu).
@@ -52,7 +52,7 @@ fn every_answer_says_that_it_tips() {
     assert!(sized.contains("its safety factor is 1.5 (beyond, shoes tips), which is enough."), "{sized}");
     let limited = limits(&door(&[]), &LimitsOptions::new("mu=0..1.2".parse::<Vary>().unwrap())).unwrap();
     assert_eq!(limited.answer(), "It tips from mu = 0.45 on (the model has 0.3).");
-    let options = DriveOptions::default().vary("h=0.2 m..5 m".parse::<Vary>().unwrap());
+    let options = DriveOptions::default().vary("h=200 mm..5000 mm".parse::<Vary>().unwrap());
     let over = drive(&door(&[]), &options).unwrap().answer();
     assert!(over.contains("Over h from 200 to 5000 mm, shoes tips from 1500 mm on."), "{over}");
     let drawn = drive(&door(&[("h", "2500 mm")]), &DriveOptions::default()).unwrap().answer();
@@ -84,13 +84,9 @@ fn a_map_of_motions_tells_what_tips() {
     });
     let tips = tips.unwrap();
     assert_eq!(report.classes[tips].words, "one solution: it tips");
-    // mu = 0.3 at 2.4 m tips, mu = 0.06 at 0.6 m does not.
-    let at = |mu: f64, h: f64| {
-        let [column, row] = [(mu - 0.05) / 0.35 * 24.0, (h - 0.5) / 2.0 * 24.0];
-        report.class_at(column as usize, row as usize)
-    };
-    assert_eq!(at(0.3, 2.4), tips);
-    assert_ne!(at(0.06, 0.6), tips);
+    // Pixels at mu = 0.305, h = 2.375 m, which tips, and at mu = 0.057, h = 0.625 m.
+    assert_eq!(report.class_at(17, 22), tips);
+    assert_ne!(report.class_at(0, 1), tips);
 }
 
 /// Both loads hang as far from the middle of the guide, so that nothing presses it, wherever they hang: what is left of the

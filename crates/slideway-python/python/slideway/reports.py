@@ -187,6 +187,7 @@ __all__ = [
     "Threshold",
     "Tipping",
     "TippingLimit",
+    "TipsAt",
     "TreeReport",
     "UncertainMode",
     "UncertainParameter",
@@ -1273,6 +1274,8 @@ class CourseDirection(Record):
     peaks: tuple[PeakEffort, ...] = ()
     """Where the effort of each drive is greatest, by its magnitude; absent where one grows without bound, where
     there are several states, and with friction in hinges."""
+    tips: tuple[TipsAt, ...] = ()
+    """Where joints begin to tip, in ascending order; absent where none does, and with friction in hinges."""
     locked: tuple[LockedRange, ...] = ()
     """With friction in hinges: ranges without a solution."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
@@ -3201,6 +3204,18 @@ class TippingLimit(Record):
     """As a factor of that of the model."""
     joints: tuple[str, ...]
     """The joints of these blocks."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TipsAt(Record):
+    """Where joints begin to tip."""
+
+    at: float
+    """The value of what is varied."""
+    above: bool
+    """Whether they tip above it, or else below."""
+    joints: tuple[str, ...]
+    """The joints."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)

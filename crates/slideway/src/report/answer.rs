@@ -157,7 +157,7 @@ impl SolveReport {
             sentences.push(if self.status == Status::One {
                 format!("From {} it has several ways to go on.", at(changes))
             } else {
-                format!("From {} on it has more or fewer ways to go on.", at(changes))
+                format!("The number of solutions changes from {}.", at(changes))
             });
         }
         let any_load = self.any_load_in_words(margins);
@@ -171,7 +171,7 @@ impl SolveReport {
             None if margins.another_count.is_none() && self.has_friction() => {
                 let with = if margins.uniqueness.is_some() { " under this load" } else { "" };
                 sentences.push(if self.status == Status::Several {
-                    "No friction, however great, jams it.".to_owned()
+                    "However much all friction grows, it has a solution.".to_owned()
                 } else {
                     format!("While it moves, more friction would not jam it{with}.")
                 });
