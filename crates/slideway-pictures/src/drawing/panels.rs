@@ -224,7 +224,7 @@ impl Drawn<'_> {
         } else if report.margins_missing == Some(MarginsMissing::TooManyModes) {
             "it has too many contacts"
         } else {
-            "with less friction it does not move either"
+            "none grows without limit as friction grows to that of the model"
         };
         Some(format!("The forces that lock it are not drawn: {why}."))
     }
