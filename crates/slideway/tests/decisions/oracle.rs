@@ -73,6 +73,7 @@ fn imbalance(state: &State, one: &Successor) -> f64 {
                 balance.add(slider.block, Vector2::zeros(), Vector2::zeros(), value);
                 balance.add(slider.guide, Vector2::zeros(), Vector2::zeros(), -value);
             }
+            Reaction::Carried(..) => panic!("of a planar model there is none"),
             Reaction::Normal(_) => {}
         }
     }
