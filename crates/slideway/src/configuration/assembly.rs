@@ -49,7 +49,7 @@ pub(super) fn closed_drawing(
 /// and whether something gives way to what they say.
 fn check_excess(mechanism: &Mechanism, poses: &[Pose]) -> Result<(), Faults> {
     if mechanism.excess.is_empty() {
-        return Ok(());
+        return mechanism.check_carried_once();
     }
     let mut drawing = Configuration::drawing(mechanism);
     drawing.poses = poses.to_vec();
