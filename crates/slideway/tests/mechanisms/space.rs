@@ -225,7 +225,7 @@ fn a_four_sided_guide_locks_where_the_distances_add_up() {
     for c in [0.0_f64, 0.09, -0.12] {
         let end = 0.2 - c.abs();
         for (a, moves) in [(end * 0.999, true), (end * 1.001, false), (-end * 1.001, false)] {
-            let settings = Settings::default().parameter("a", &a.to_string()).parameter("c", &c.to_string());
+            let settings = Settings::default().parameter("a", a.to_string()).parameter("c", c.to_string());
             let report = solve(&model.with(&settings).unwrap()).unwrap();
             assert_eq!(report.solutions.len(), usize::from(moves), "c = {c}, a = {a}\n{}", text(&report));
         }
@@ -237,7 +237,7 @@ fn a_four_sided_guide_locks_where_the_distances_add_up() {
 fn the_pull_follows_the_closed_form() {
     let model = Model::parse(GUIDE).unwrap();
     for (a, c) in [(0.05, 0.06), (-0.03, 0.1), (0.1, -0.08)] {
-        let settings = Settings::default().parameter("a", &a.to_string()).parameter("c", &c.to_string());
+        let settings = Settings::default().parameter("a", a.to_string()).parameter("c", c.to_string());
         let report = solve(&model.with(&settings).unwrap()).unwrap();
         let [solution] = report.solutions.as_slice() else { panic!("{}", text(&report)) };
         let expected = 10.0 / (1.0 - 2.0 * 0.25 * (f64::abs(a) + f64::abs(c)) / 0.1);
@@ -627,7 +627,7 @@ fn in_space(text: &str) -> Option<String> {
     let mut spatial = String::new();
     for line in text.lines() {
         if line.starts_with('[') {
-            section = line.trim().to_owned();
+            line.trim().clone_into(&mut section);
             writeln!(spatial, "{line}").unwrap();
             let of_joint = carries.iter().find(|(name, _)| section == format!("[joints.{name}]"));
             of_joint.iter().for_each(|(_, carries)| writeln!(spatial, "carries = {carries}").unwrap());
