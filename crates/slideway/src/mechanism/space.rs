@@ -6,10 +6,11 @@
 
 use super::excess::{Row, rank};
 use super::{Body, Joint, JointKind, Mechanism, Slider, rot90};
+use crate::dense::singular_values;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::Frame;
 use crate::interval::Real;
-use nalgebra::{DMatrix, SymmetricEigen, Vector2};
+use nalgebra::{DMatrix, Vector2};
 
 /// Parts of a motion that are smaller than this part of it are rounding.
 const ROUNDING: f64 = 1e-6;
@@ -169,11 +170,12 @@ impl Mechanism {
 
     /// Says what a body can do, from motions along z and about x and y, one in each column.
     fn motion_in_words(&self, frame: Frame, motions: &DMatrix<f64>) -> String {
-        let found = motions.clone().svd(true, false);
-        let values = &found.singular_values;
-        let is_one = values.iter().filter(|value| **value > ROUNDING * values.amax()).count() == 1;
-        let (Some(left), true) = (found.u, is_one) else { return "moving out of the drawing".to_owned() };
-        let motion = left.column(values.imax());
+        let found = singular_values(motions, [true, false]).filter(|found| {
+            let values = &found.singular_values;
+            values.iter().filter(|value| **value > ROUNDING * values.amax()).count() == 1
+        });
+        let greatest = found.and_then(|found| Some(found.u?.column(found.singular_values.imax()).into_owned()));
+        let Some(motion) = greatest else { return "moving out of the drawing".to_owned() };
         let axis = Vector2::new(motion[1], motion[2]);
         if axis.norm() < ROUNDING {
             return "moving along z, out of the drawing".to_owned();
@@ -200,13 +202,18 @@ impl Mechanism {
 
 /// The motions out of the plane that these rows allow, a column for each: along z and about x and y of every body.
 fn out_of_plane_motions(rows: &[Row], bodies: usize) -> DMatrix<f64> {
-    let all: Vec<_> = rows.iter().map(|row| row.entries().transpose()).collect();
-    let matrix = if all.is_empty() { DMatrix::zeros(1, 6 * bodies) } else { DMatrix::from_rows(&all) };
-    let found = SymmetricEigen::new(matrix.transpose() * &matrix);
-    let greatest = found.eigenvalues.amax();
-    let free: Vec<_> = (0..6 * bodies)
-        .filter(|&place| found.eigenvalues[place] <= ROUNDING.powi(2) * greatest)
-        .map(|place| found.eigenvectors.column(place).rows(3 * bodies, 3 * bodies).into_owned())
+    let columns = 6 * bodies;
+    let mut matrix = DMatrix::zeros(rows.len().max(columns), columns);
+    for (at, row) in rows.iter().enumerate() {
+        matrix.row_mut(at).tr_copy_from(&row.entries());
+    }
+    let nothing = DMatrix::zeros(3 * bodies, 1);
+    let Some(found) = singular_values(&matrix, [false, true]) else { return nothing };
+    let Some(directions) = found.v_t else { return nothing };
+    let greatest = found.singular_values.amax();
+    let free: Vec<_> = (0..columns)
+        .filter(|&place| found.singular_values[place] <= ROUNDING * greatest)
+        .map(|place| directions.row(place).transpose().rows(3 * bodies, 3 * bodies).into_owned())
         .collect();
-    if free.is_empty() { DMatrix::zeros(3 * bodies, 1) } else { DMatrix::from_columns(&free) }
+    if free.is_empty() { nothing } else { DMatrix::from_columns(&free) }
 }
