@@ -572,7 +572,8 @@ fn a_crank_that_strikes_takes_a_wheel_along_by_its_pin() {
     );
     let model = Model::parse(&text).unwrap().with(&Settings::default()).unwrap();
     let c = radius * mass * length / moment;
-    for (law, expected) in [(ImpactLaw::Course, -c * rate / (1.0 + c) * (1.0 - c)), (ImpactLaw::Moreau, 0.0)] {
+    for (law, expected) in [(ImpactLaw::Course, -c * rate / (1.0 + c) * (1.0 - c)), (ImpactLaw::Moreau, 0.0)]
+    {
         let history = simulate(&model, &SimulateOptions::new(1e-3).impacts(law)).unwrap();
         let rates = history.reader().at(1e-3).unwrap().configuration.rates.clone();
         is_near(rates[0], 0.0, 1e-9);

@@ -174,7 +174,8 @@ impl Mechanism {
             let values = &found.singular_values;
             values.iter().filter(|value| **value > ROUNDING * values.amax()).count() == 1
         });
-        let greatest = found.and_then(|found| Some(found.u?.column(found.singular_values.imax()).into_owned()));
+        let greatest =
+            found.and_then(|found| Some(found.u?.column(found.singular_values.imax()).into_owned()));
         let Some(motion) = greatest else { return "moving out of the drawing".to_owned() };
         let axis = Vector2::new(motion[1], motion[2]);
         if axis.norm() < ROUNDING {
@@ -205,7 +206,7 @@ fn out_of_plane_motions(rows: &[Row], bodies: usize) -> DMatrix<f64> {
     let columns = 6 * bodies;
     let mut matrix = DMatrix::zeros(rows.len().max(columns), columns);
     for (at, row) in rows.iter().enumerate() {
-        matrix.row_mut(at).tr_copy_from(&row.entries());
+        matrix.row_mut(at).tr_copy_from(row.entries());
     }
     let nothing = DMatrix::zeros(3 * bodies, 1);
     let Some(found) = singular_values(&matrix, [false, true]) else { return nothing };

@@ -188,8 +188,7 @@ fn numbers<T: Real>(
             for &k in &joint.contacts {
                 let contact = &mechanism.contacts[k];
                 let presses = face == 0 || !contact.opens;
-                all[(cone, k)] =
-                    if presses { contact.mu[face] * T::exactly(-2.0) } else { T::zero() };
+                all[(cone, k)] = if presses { contact.mu[face] * T::exactly(-2.0) } else { T::zero() };
             }
         }
         all
@@ -205,7 +204,8 @@ fn numbers<T: Real>(
 
 /// The problem of all numbers within these bounds.
 fn within_bounds(numbers: &Numbers<crate::interval::Interval>) -> Result<IntervalModeProblem, NotEnclosed> {
-    let bounded = |entries: &DMatrix<_>| IntervalMatrix::from_intervals(entries).ok_or(NotEnclosed::Equations);
+    let bounded =
+        |entries: &DMatrix<_>| IntervalMatrix::from_intervals(entries).ok_or(NotEnclosed::Equations);
     let sides = |both: &BySide<DMatrix<_>>| both.try_map(|_, entries| bounded(entries));
     let load = bounded(&DMatrix::from_columns(std::slice::from_ref(&numbers.load)))?;
     Ok(IntervalModeProblem::new(&sides(&numbers.columns)?, &sides(&numbers.jumps)?, &load)?)
