@@ -14,7 +14,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("units", &["choice", "expression"]),
     ("model", &["expression", "fault", "ids", "interval", "units"]),
     ("drawing", &["fault", "ids", "model", "printable"]),
-    ("mechanism", &["expression", "fault", "ids", "interval", "model", "modes", "units"]),
+    ("mechanism", &["dense", "expression", "fault", "ids", "interval", "model", "modes", "units"]),
     ("configuration", &["dense", "fault", "ids", "interval", "mechanism", "model", "progress"]),
     ("kinetics", &["configuration", "dense", "fault", "ids", "interval", "mechanism", "model", "units"]),
     ("influence", &["ids", "kinetics", "units"]),

@@ -149,6 +149,7 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     // Both directions are one.
     let is_at_rest = report.directions.len() == 1;
     let may_be_idle = report.drives.len() == 1 && !is_at_rest;
+    let lifts_off = only.joints.iter().any(|joint| matches!(joint.face, Some(OnFace::Opens | OnFace::Tips)));
     let is_idle = only.efficiency.is == EfficiencyKind::NoPower && may_be_idle;
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
@@ -157,13 +158,14 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
         if is_idle {
             format!("{} needs {with}", drive.name)
         } else {
-            effort::needs(&drive.name, &with, &unit.brief(*without))
+            effort::needs(&drive.name, &with, &unit.brief(*without), lifts_off)
         }
     };
     let efforts = only.efforts.iter().zip(&direction.frictionless.efforts);
     let needs: Vec<String> = report.drives.iter().zip(efforts).map(one).collect();
     let gain = match (only.efficiency.is, only.efficiency.value) {
         _ if is_idle && only.efforts.iter().all(|effort| *effort == 0.0) => ": nothing resists it".to_owned(),
+        _ if is_idle && lifts_off => String::new(),
         _ if is_idle => ", all of it against friction".to_owned(),
         (EfficiencyKind::Driving, Some(value)) => format!(": efficiency {}", percent(value)),
         (EfficiencyKind::Braking, Some(value)) => {
@@ -234,7 +236,7 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
     let efforts = range.undetermined.efforts.iter().zip(&direction.frictionless.efforts);
     let needs = efforts.map(|(range, without)| {
         let without = report.units.of(range.unit).brief(*without);
-        effort::needs(&range.name, &range.in_brief(&report.units), &without)
+        effort::needs(&range.name, &range.in_brief(&report.units), &without, false)
     });
     let mut parts: Vec<String> = needs.collect();
     parts.extend(range.efficiency.map(|ends| format!("efficiency {}", percents(ends))));

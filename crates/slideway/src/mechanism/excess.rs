@@ -6,8 +6,7 @@
 //! the same in every position, so that all numbers that are made with it change continuously. The two faces of a
 //! press fit have one row, so that one of them is cut.
 
-use super::space::tilting;
-use super::{Attachment, Joint, JointKind, Mechanism, Slider, rot90};
+use super::{Attachment, Joint, JointKind, Mechanism, Slider, rot90, tilting};
 use crate::ids::{ContactId, Frame};
 use crate::model::SliderKind;
 use crate::modes::OpenContacts;

@@ -32,7 +32,6 @@ use nalgebra::Vector2;
 pub use pad::Pad;
 pub(crate) use part::{body_of, frames_of};
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
-pub(crate) use space::tilting;
 pub use space::{BodyInSpace, Space};
 use std::sync::Arc;
 
@@ -919,6 +918,11 @@ impl<T: Real> Mechanism<T> {
 /// A vector turned by a right angle counter-clockwise: n = rot90(u).
 pub fn rot90<T: Real>(vector: Vector2<T>) -> Vector2<T> {
     Vector2::new(-vector.y, vector.x)
+}
+
+/// The moments about x and y of a force with a component along z, by its arm (theory of loads in space).
+pub(crate) fn tilting<T: Real>((arm, z): (Vector2<T>, T), (force, along_z): (Vector2<T>, T)) -> Vector2<T> {
+    Vector2::new(arm.y * along_z - z * force.y, z * force.x - arm.x * along_z)
 }
 
 /// Length of a vector with a part out of the drawing.

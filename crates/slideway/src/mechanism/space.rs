@@ -35,11 +35,6 @@ pub struct BodyInSpace<T = f64> {
     pub tilt: Option<[T; 2]>,
 }
 
-/// The moments about x and y of a force with a component along z, by its arm (theory of loads in space).
-pub(crate) fn tilting<T: Real>((arm, z): (Vector2<T>, T), (force, along_z): (Vector2<T>, T)) -> Vector2<T> {
-    Vector2::new(arm.y * along_z - z * force.y, z * force.x - arm.x * along_z)
-}
-
 impl<T: Real> Mechanism<T> {
     /// Accelerations of each body: three in the plane, and three out of it if the model says something of that.
     pub(crate) fn accelerations(&self) -> usize {

@@ -256,9 +256,11 @@ impl SolveReport {
 
     /// "push needs 36.36 N (20 N without friction)", for each drive.
     fn needs(&self, solution: &Solution) -> Vec<String> {
+        let lifts_off = solution.contacts.iter().any(|contact| contact.gap_acceleration.is_some());
         let one = |(drive, without): (&Drive, &Drive)| {
             let unit = self.model.units.of(drive.unit);
-            effort::needs(&drive.name, &unit.brief(drive.effort), &unit.brief(without.effort))
+            let without = unit.brief(without.effort);
+            effort::needs(&drive.name, &unit.brief(drive.effort), &without, lifts_off)
         };
         solution.drives.iter().zip(&self.influence.drives).map(one).collect()
     }

@@ -4,11 +4,11 @@ use super::Verdict;
 use crate::units::brief;
 
 /// The effort of a drive, with friction and without: "push needs 36.36 N (20 N without friction)", "push needs 16 N, all
-/// of it against friction".
-pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str) -> String {
+/// of it against friction". Where something lifts off, it also accelerates that.
+pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str, lifts_off: bool) -> String {
     if effort == without_friction {
         format!("{drive} needs {effort}, as without friction")
-    } else if without_friction.starts_with("0 ") {
+    } else if without_friction.starts_with("0 ") && !lifts_off {
         format!("{drive} needs {effort}, all of it against friction")
     } else {
         format!("{drive} needs {effort} ({without_friction} without friction)")

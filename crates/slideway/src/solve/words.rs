@@ -59,6 +59,7 @@ fn in_cross_section(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64
         all.into_iter().partition(|(contact, _)| contact.lean.is_some());
     let mut words: Vec<String> = match upright.as_slice() {
         [] => Vec::new(),
+        [(_, 0), (_, 0)] if leaning.iter().any(|(_, sign)| *sign != 0) => Vec::new(),
         [(_, front), (_, rear)] => vec![mode_in_words(slider, tangent, &[*front, *rear])],
         more => {
             let place = |sign: i8| match sign {
