@@ -33,7 +33,7 @@ pub(crate) use elastic::MasslessMotions;
 pub(crate) use influences::{Accuracy, Elimination, Influences};
 pub(crate) use loads::{Applied, unit_effort as effort_forces};
 pub use loads::{Wrench, load_wrenches};
-pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows};
+pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows, sliding as sliding_row};
 
 use crate::configuration::{Configuration, ContactGeometry, motion_in_words, moved_by};
 use crate::fault::{Fault, FaultKind, Faults};
@@ -421,15 +421,6 @@ pub(crate) fn gap_acceleration(
 /// along u.
 #[derive(Debug, Clone)]
 pub(crate) struct SlidingRow(ConstraintRow);
-
-/// The row of the acceleration of sliding of a joint, exact or within bounds.
-pub(crate) fn sliding_row<T: Real>(
-    mechanism: &Mechanism<T>,
-    configuration: &Configuration<T>,
-    slider: &Slider<T>,
-) -> ConstraintRow<T> {
-    rows::sliding(mechanism, configuration, slider)
-}
 
 impl SlidingRow {
     /// The row of a sliding joint in a configuration.

@@ -275,7 +275,7 @@ fn middle<T: Real>(
 
 /// The row of the acceleration of sliding of a joint where it rubs, which is the rim of a disc: the normal accelerations of both
 /// bodies from its centre to its rim are normal to u, and so is Coriolis'.
-pub(super) fn sliding<T: Real>(
+pub(crate) fn sliding<T: Real>(
     mechanism: &Mechanism<T>,
     configuration: &Configuration<T>,
     slider: &Slider<T>,

@@ -7,7 +7,7 @@ use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::{ContactFriction, HingeState};
 use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
-use crate::mechanism::{Attachment, BodyInSpace, JointKind, Mechanism};
+use crate::mechanism::{Attachment, BodyInSpace, JointKind, Mechanism, tilting};
 use nalgebra::{DVector, Vector2};
 
 /// What is left over in the balance of a body.
@@ -165,12 +165,10 @@ impl Balance<'_> {
         let spin = self.configuration.velocities[body.index()].angular.powi(2);
         let mut along_z = 0.0;
         let mut tilt = products * turning - Vector2::new(products.y, -products.x) * spin;
-        tilt -= Vector2::new(-z * inertia.y, z * inertia.x);
+        tilt -= tilting((Vector2::zeros(), z), (inertia, 0.0));
         for wrench in forces.iter().filter(|wrench| wrench.frame == Frame::Body(body)) {
             along_z += wrench.along_z;
-            let Wrench { place, force, .. } = wrench;
-            tilt.x += place.y * wrench.along_z - wrench.z * force.y + wrench.tilt.x;
-            tilt.y += wrench.z * force.x - place.x * wrench.along_z + wrench.tilt.y;
+            tilt += tilting((wrench.place, wrench.z), (wrench.force, wrench.along_z)) + wrench.tilt;
         }
         [along_z.abs(), length(tilt)]
     }

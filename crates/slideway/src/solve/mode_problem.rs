@@ -75,11 +75,13 @@ impl Sliding {
 /// # Errors
 /// A fault for them.
 pub(super) fn none_stands(mechanism: &Mechanism, standing: &[ContactId]) -> Result<(), Faults> {
-    if standing.is_empty() {
-        return Ok(());
-    }
+    if standing.is_empty() { Ok(()) } else { Err(stands(mechanism, standing)) }
+}
+
+/// The fault of contacts that stand still while the rest moves.
+pub(super) fn stands(mechanism: &Mechanism, standing: &[ContactId]) -> Faults {
     let why = if may_lift_off(mechanism, standing) { NoSliding::Starts } else { NoSliding::Stands };
-    Err(does_not_slide(mechanism, standing, why))
+    does_not_slide(mechanism, standing, why)
 }
 
 /// The fault of contacts that do not slide, at the joint of the first.

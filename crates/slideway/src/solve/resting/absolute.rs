@@ -30,7 +30,7 @@ use crate::modes::{
 use crate::progress::Callback;
 use crate::report::Solution;
 use crate::solve::answer::Answer;
-use crate::solve::mode_problem::{none_stands, overflow};
+use crate::solve::mode_problem::{overflow, stands};
 use crate::solve::stages::Stages;
 use crate::solve::standing::check_standing;
 use nalgebra::{DMatrix, DVector};
@@ -67,10 +67,7 @@ pub(in crate::solve) fn mode_problem(
     let joints = joints_of(stages, &stages.standing, |row, _| row.of_velocities());
     let answer = Answer::determinate(stages, equations);
     let resting = Resting::new(&answer, joints, greatest_force(&stages.influence));
-    let Some(at_rest) = resting.as_mode_problem() else {
-        none_stands(mechanism, &stages.standing)?;
-        return Err(overflow());
-    };
+    let at_rest = resting.as_mode_problem().ok_or_else(|| stands(mechanism, &stages.standing))?;
     let rows: Vec<_> = resting.joints.into_iter().map(|joint| joint.row.into_equation()).collect();
     let Numbers { columns, jumps, load } =
         numbers(&stages.data().coefficients(&[], &rows)?, mechanism, &at_rest);
