@@ -343,11 +343,24 @@ function begin(next) {
   refresh();
 }
 
-async function beginWith(text) {
+let awaited = 0;
+
+/** Begins with another state once it is there, unless another one is asked for meanwhile. */
+async function beginOnce(coming) {
+  awaited += 1;
+  const own = awaited;
+  const next = await coming;
+  if (own === awaited) begin(next);
+}
+
+/** The state of what a link or a choice of a model says. */
+const stateOf = async (said) => State.of(said, await library);
+
+async function stateWith(file) {
   const next = new State();
-  next.text = text;
+  next.text = await file.text();
   next.tab = state.tab;
-  begin(next);
+  return next;
 }
 
 byId("reset").addEventListener("click", () => {
@@ -370,8 +383,8 @@ function offerModels(entries) {
   byId("pick").prepend(element("option", { value: "", disabled: true }, "a text of one's own"));
 }
 
-byId("pick").addEventListener("change", async () =>
-  begin(await State.of(new URLSearchParams({ model: byId("pick").value }), await library)),
+byId("pick").addEventListener("change", () =>
+  beginOnce(stateOf(new URLSearchParams({ model: byId("pick").value }))),
 );
 
 byId("open").addEventListener("click", () => byId("file").click());
@@ -382,10 +395,10 @@ addEventListener("drop", (event) => {
   openFile(event.dataTransfer.files[0]);
 });
 
-async function openFile(file) {
+function openFile(file) {
   if (!file) return;
   if (file.size > LARGEST_FILE) notice(`${file.name} is larger than 4 MiB, too large for a model.`);
-  else beginWith(await file.text());
+  else beginOnce(stateWith(file));
 }
 
 // ---- The strip
@@ -534,9 +547,9 @@ const remember = settled(async () => {
   history.replaceState(null, "", `#${address}`);
 }, 100);
 
-addEventListener("hashchange", async () => {
+addEventListener("hashchange", () => {
   const wanted = location.hash.slice(1);
-  if (wanted !== address) begin(await State.of(wanted, await library));
+  if (wanted !== address) beginOnce(stateOf(wanted));
 });
 
 byId("share").addEventListener("click", async () => {
@@ -620,7 +633,7 @@ paint();
 
 try {
   offerModels(await library);
-  begin(await State.of(location.hash.slice(1), await library));
+  await beginOnce(stateOf(location.hash.slice(1)));
   await showPrepared();
 } catch (error) {
   failed(error);

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { resolve } from "node:path";
 import { test } from "node:test";
 import { top } from "../tools/places.js";
-import { setUp, settled, skip, verdict } from "./browser.js";
+import { close, setUp, settled, skip, verdict } from "./browser.js";
 
 const set = setUp();
 const drawer = readFileSync(resolve(top, "models/drawer.toml"), "utf8");
@@ -103,9 +103,28 @@ test("a model of a million parameters is too large", { skip }, async () => {
 test("very many parameters do not freeze the page", { skip }, async () => {
   const page = await set.open();
   const parameters = Array.from({ length: 150_000 }, (_, index) => `p${index} = ${index}`).join("\n");
-  await drop(page, drawer.replace("[parameters]\n", `[parameters]\n${parameters}\n`));
+  const begun = await page.evaluate(() => document.documentElement.dataset.begun);
+  await hand(page, drawer.replace("[parameters]\n", `[parameters]\n${parameters}\n`));
+  await page.waitForFunction((before) => document.documentElement.dataset.begun !== before, begun);
+  // While the engine reads them.
   await assertAlive(page);
   await page.context().close();
+});
+
+test("of a file that is being read and a model that is picked meanwhile the last one is shown", { skip }, async () => {
+  const page = await set.open();
+  await page.evaluate((text) => {
+    const file = new File([text], "late.toml");
+    file.text = () => new Promise((read) => setTimeout(() => read(text), 500));
+    const dropped = new Event("drop", { cancelable: true });
+    dropped.dataTransfer = { files: [file] };
+    dispatchEvent(dropped);
+  }, drawer.replace('title = "A drawer', 'title = "A late drawer'));
+  await page.selectOption("#pick", "gallery:wedge");
+  await page.waitForTimeout(1000);
+  await settled(page);
+  assert.match(await page.textContent("#about"), /edge/);
+  await close(page);
 });
 
 test("deep nesting is refused", { skip }, async () => {
