@@ -119,7 +119,7 @@ pub(crate) fn assert_states(
             report.solutions.iter().filter(|solution| is(solution, system, state, tolerance)).collect();
         assert_eq!(found.len(), 1, "{name}: {state:?} in {:#?}\n{}", report.solutions, system.text());
         let solution = found[0];
-        let most = system.rounding(state.condition, report.condition);
+        let most = system.rounding(state.condition);
         assert!(solution.residual < most, "{name}: {} {most}\n{}", solution.residual, system.text());
         for (k, one) in system.contacts.iter().enumerate() {
             let found = contact(solution, &one.name);

@@ -158,14 +158,14 @@ impl System {
                 (0..contacts).map(|k| if is_other(k) && !open[k] { -1.0 } else { 1.0 }).collect();
             let (matrix, right) = self.equations(&open, true, &sides);
             let smooth = self.equations(&open, false, &sides).0.determinant();
-            let (of_contacts, condition) = (matrix.determinant() / smooth, condition(&matrix));
+            let of_contacts = matrix.determinant() / smooth;
             if of_contacts.abs() < 1e-4 {
                 return None;
             }
-            let factors = matrix.lu();
+            let factors = matrix.clone().lu();
             let constant = factors.solve(&right)?;
-            let slopes: Vec<DVector<f64>> = self
-                .couples(right.len())
+            let couples = self.couples(right.len());
+            let slopes: Vec<DVector<f64>> = couples
                 .iter()
                 .map(|couple| factors.solve(couple))
                 .collect::<Option<_>>()?;
@@ -209,8 +209,17 @@ impl System {
                 if of_hinges.abs() < 1e-4 {
                     return None;
                 }
+                // The equations with the couples as they depend on the forces at this root.
+                let mut along = matrix.clone();
+                for ((&hinge, couple), (quadric, length)) in
+                    self.rough().iter().zip(&couples).zip(quadrics.iter().zip(&w))
+                {
+                    let direction = quadric.force(&w) / *length;
+                    let mut columns = along.columns_mut(bodies + 2 * hinge, 2);
+                    columns.ger(-1.0, couple, &direction, 1.0);
+                }
                 found.push(w);
-                let ratios = [of_contacts * of_hinges, condition / of_hinges.abs().min(1.0)];
+                let ratios = [of_contacts * of_hinges, condition(&along)];
                 let (state, slack) = self.state(&unknowns, (&open, &sides), ratios)?;
                 if slack > 0.0 {
                     states.push(state);

@@ -539,12 +539,13 @@ pub(crate) fn condition(matrix: &DMatrix<f64>) -> f64 {
 }
 
 impl System {
-    /// The greatest residual that rounding leaves of forces that are built on those without friction: the loss of both equations, by
-    /// their condition numbers, of sums of so many terms as there are unknowns.
-    pub(crate) fn rounding(&self, of_pattern: f64, of_base: f64) -> f64 {
-        let unknowns =
-            3 * self.bodies.len() + 2 * self.hinges.len() + 2 * self.contacts.len() + self.drives.len();
-        (f64::EPSILON * unknowns as f64 * of_pattern * of_base).max(1e-12)
+    /// The greatest residual that rounding leaves of forces that are built on those without friction of closed contacts: the loss
+    /// of both equations, by their condition numbers, of sums of so many terms as there are unknowns.
+    pub(crate) fn rounding(&self, of_pattern: f64) -> f64 {
+        let contacts = self.contacts.len();
+        let unknowns = 3 * self.bodies.len() + 2 * self.hinges.len() + 2 * contacts + self.drives.len();
+        let base = self.equations(&vec![false; contacts], false, &vec![1.0; contacts]).0;
+        (f64::EPSILON * unknowns as f64 * of_pattern * condition(&base)).max(1e-12)
     }
 }
 
