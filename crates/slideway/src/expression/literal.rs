@@ -25,8 +25,14 @@ const MAX_PROPOSALS: usize = 3;
 
 /// A unit that stands by itself, such as `mm` or `N/m`; nothing for a text that is none.
 pub(crate) fn written_unit(text: &str) -> Option<WrittenUnit> {
+    let tokens = tokens(text).ok()?;
+    // Of what is no unit nobody asks which unit is meant.
+    let is_strange = |kind: TokenKind<'_>| matches!(kind, TokenKind::Name(name) if unit::find(name).is_none());
+    if tokens.iter().any(|token| is_strange(token.kind)) {
+        return None;
+    }
     let names = Names::new();
-    let mut parser = Parser::new(text, tokens(text).ok()?, &names);
+    let mut parser = Parser::new(text, tokens, &names);
     let unit = parser.unit(&mut (0..0)).ok()??;
     let is_unit = !unit.is_none() && parser.faults.is_empty() && parser.peek(0).is_none();
     is_unit.then_some(unit)

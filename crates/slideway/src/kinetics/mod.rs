@@ -44,7 +44,7 @@ use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
 use system::{Factorization, Singular, Unfactored, without_noise};
-pub(crate) use system::{equilibration, scaled};
+pub(crate) use system::{equilibration, inverse_root, scaled};
 
 /// Accelerations that violate the row of a cut contact by more than this part of its terms do not satisfy it.
 const INCONSISTENT: f64 = 1e-9;

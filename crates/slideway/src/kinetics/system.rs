@@ -190,7 +190,7 @@ pub(crate) fn equilibration(matrix: &DMatrix<f64>) -> (DVector<f64>, DVector<f64
 
 /// The power of two nearest to 1/sqrt(x), from the exponent of x; 1 for an empty row. Between two the one
 /// farther from 1.
-fn inverse_root(x: f64) -> f64 {
+pub(crate) fn inverse_root(x: f64) -> f64 {
     if x <= 0.0 || !x.is_finite() {
         return 1.0;
     }

@@ -1,5 +1,7 @@
 //! Small dense linear systems, solved again and again without new memory.
 
+use crate::kinetics::inverse_root;
+
 /// Ratio of pivots from which on no pivot is given without a search.
 const WELL_CONDITIONED: f64 = 1e6;
 
@@ -121,6 +123,24 @@ impl LinearSystem {
     pub(in crate::motion) fn set_scales(&mut self, rows: &[f64], columns: &[f64]) {
         self.row_scale.copy_from_slice(rows);
         self.column_scale.copy_from_slice(columns);
+    }
+
+    /// Scales rows and columns about the diagonal of the uncoupled ones: their entries come near one, and so do what the other
+    /// rows and columns have beside them. Then the pivots that follow are those of constraints beside masses.
+    pub(in crate::motion) fn set_scales_of_uncoupled(&mut self) {
+        let (size, first) = (self.size, self.uncoupled);
+        for place in 0..first {
+            let scale = inverse_root(self.entry(place, place).abs());
+            (self.row_scale[place], self.column_scale[place]) = (scale, scale);
+        }
+        for place in first..size {
+            let beside = |entry: &dyn Fn(usize) -> f64| -> f64 {
+                inverse_root((0..first).map(|other| (entry(other) * self.row_scale[other]).powi(2)).sum())
+            };
+            let row = beside(&|column| self.entry(place, column));
+            let column = beside(&|row| self.entry(row, place));
+            (self.row_scale[place], self.column_scale[place]) = (row, column);
+        }
     }
 
     /// Replaces the matrix by its factors; returns the ratio of the greatest to the least pivot, infinite if

@@ -212,16 +212,21 @@ impl<'m> Equations<'m> {
         let inertias = self.mechanism.bodies.iter().flat_map(|body| [body.mass, body.moment_of_inertia]);
         // With a search the acceleration of what sticks is zero to the last bit, not only beside those of
         // forces that balance.
-        if self.stuck.is_empty() && inertias.into_iter().all(|inertia| inertia > 0.0) {
+        let is_uncoupled = self.stuck.is_empty() && inertias.into_iter().all(|inertia| inertia > 0.0);
+        if is_uncoupled {
             self.system.uncouple(3 * self.mechanism.bodies.len());
         }
         self.unknowns = vec![0.0; size];
         self.work = vec![0.0; size];
         self.orientation = None;
         self.assemble()?;
-        let (rows, columns) =
-            equilibration(&DMatrix::from_fn(size, size, |row, column| self.system.entry(row, column)));
-        self.system.set_scales(rows.as_slice(), columns.as_slice());
+        if is_uncoupled {
+            self.system.set_scales_of_uncoupled();
+        } else {
+            let matrix = DMatrix::from_fn(size, size, |row, column| self.system.entry(row, column));
+            let (rows, columns) = equilibration(&matrix);
+            self.system.set_scales(rows.as_slice(), columns.as_slice());
+        }
         self.solve()?;
         self.orientation = self.turns().then(|| self.system.determinant().sign());
         Ok(())
