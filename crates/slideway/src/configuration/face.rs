@@ -9,7 +9,7 @@ use crate::mechanism::{Attachment, Contact, Mechanism, Slider};
 const ON_END: f64 = 1e-9;
 
 impl Configuration {
-    /// How far a contact that may lift off is from the beginning (-1) or the end (1) of its face (m).
+    /// How far a block may slide backwards (-1) or forwards (1) until a contact that may lift off is at an end of its face (m).
     pub(crate) fn room_on_face(
         &self,
         mechanism: &Mechanism,
@@ -18,11 +18,14 @@ impl Configuration {
         end: f64,
     ) -> f64 {
         let position = contact.position(slider);
-        let [block, guide] = [slider.block, slider.guide]
+        let [corner, line_of] = contact.frames(slider);
+        let [corner_place, opposite] = [corner, line_of]
             .map(|frame| self.position(mechanism, &Attachment { frame, position, z: slider.z }));
-        let along = self.direction(slider.guide, slider.tangent).dot(&(block - guide));
-        let ([least, greatest], place) = (slider.face_ends(), along + contact.offset);
-        if end < 0.0 { place - least } else { greatest - place }
+        let along = self.direction(line_of, slider.tangent).dot(&(corner_place - opposite));
+        let ([least, greatest], place) = (mechanism.ends_of_face(slider, contact), along + contact.offset);
+        // A corner of the guide goes backwards along the face of a block that slides forwards.
+        let is_first = (end < 0.0) == (corner == slider.block);
+        if is_first { place - least } else { greatest - place }
     }
 
     /// Returns whether a contact that may lift off is beyond the ends of its face.

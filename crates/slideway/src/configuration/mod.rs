@@ -42,7 +42,7 @@ use crate::interval::Real;
 use crate::mechanism::{
     Attachment, Contact, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, length, rot90,
 };
-use crate::model::{CarriedBy, Round, SliderKind};
+use crate::model::{Round, SliderKind};
 use crate::progress::{Callback, Progress};
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -124,8 +124,10 @@ pub struct Slide<T = f64> {
 pub struct ContactGeometry<T = f64> {
     /// The point P on the centre line of the guide.
     pub point: Vector2<T>,
-    /// Tangent u of the guide.
+    /// Tangent u of the guide; where a corner of the guide touches a face of the block, of that face.
     pub tangent: Vector2<T>,
+    /// The part with which u turns.
+    pub(crate) line_of: Frame,
     /// How far P is out of the drawing (m).
     pub z: T,
     /// Normal n = rot90(u); of a contact whose normal leans out of the drawing that normal's part in it.
@@ -318,12 +320,8 @@ impl<T: Real> Configuration<T> {
     pub fn contact(&self, mechanism: &Mechanism<T>, id: ContactId) -> ContactGeometry<T> {
         let contact = &mechanism.contacts[id.index()];
         let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
-        let frame = match contact.carried_by {
-            CarriedBy::Block => slider.block,
-            CarriedBy::Guide => slider.guide,
-        };
         let z = slider.z + contact.aside[1];
-        let geometry = self.touching(mechanism, slider, (frame, contact.position(slider)));
+        let geometry = self.touching(mechanism, slider, contact);
         match contact.lean {
             None => ContactGeometry { z, ..geometry },
             Some([cos, _]) => {
@@ -332,15 +330,17 @@ impl<T: Real> Configuration<T> {
         }
     }
 
-    /// A contact of a sliding joint at a place of the drawing that moves with a frame.
+    /// A contact of a sliding joint in the drawing's plane.
     pub(crate) fn touching(
         &self,
         mechanism: &Mechanism<T>,
         slider: &Slider<T>,
-        (frame, drawn): (Frame, Vector2<T>),
+        contact: &Contact<T>,
     ) -> ContactGeometry<T> {
-        let tangent = self.tangent(mechanism, slider);
-        let point = self.position(mechanism, &Attachment { frame, position: drawn, z: slider.z });
+        let [frame, line_of] = contact.frames(slider);
+        let tangent = self.tangent_on(mechanism, slider, line_of);
+        let position = contact.position(slider);
+        let point = self.position(mechanism, &Attachment { frame, position, z: slider.z });
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
         let velocity_at_point = tangent.dot(&relative);
         let mut sliding_velocity = velocity_at_point;
@@ -352,6 +352,7 @@ impl<T: Real> Configuration<T> {
         ContactGeometry {
             point,
             tangent,
+            line_of,
             z: slider.z,
             normal,
             lean: None,
@@ -362,7 +363,12 @@ impl<T: Real> Configuration<T> {
 
     /// The tangent u of a guide where its block is.
     pub(crate) fn tangent(&self, mechanism: &Mechanism<T>, slider: &Slider<T>) -> Vector2<T> {
-        let Some(round) = &slider.round else { return self.direction(slider.guide, slider.tangent) };
+        self.tangent_on(mechanism, slider, slider.guide)
+    }
+
+    /// The tangent u of a sliding joint as it turns with one of its parts.
+    fn tangent_on(&self, mechanism: &Mechanism<T>, slider: &Slider<T>, part: Frame) -> Vector2<T> {
+        let Some(round) = &slider.round else { return self.direction(part, slider.tangent) };
         let [block, centre] = round_ends(slider, round).map(|end| self.position(mechanism, &end));
         let outwards = (block - centre) / length(block - centre);
         if round.inside { rot90(outwards) } else { -rot90(outwards) }
@@ -392,7 +398,8 @@ impl<T: Real> Configuration<T> {
         contact: &Contact<T>,
     ) -> [T; 2] {
         let position = contact.position(slider);
-        let normal = rot90(self.tangent(mechanism, slider));
+        let [corner, line_of] = contact.frames(slider);
+        let normal = rot90(self.tangent_on(mechanism, slider, line_of));
         let [place, opposite] = [slider.block, slider.guide]
             .map(|frame| self.position(mechanism, &Attachment { frame, position, z: slider.z }));
         let moved = match &slider.round {
@@ -405,7 +412,8 @@ impl<T: Real> Configuration<T> {
                 if round.inside { -change } else { change }
             }
         };
-        let relative = self.velocity_at(slider.block, place) - self.velocity_at(slider.guide, place);
+        let point = if corner == slider.block { place } else { opposite };
+        let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
         [contact.gap + moved, normal.dot(&relative)]
     }
 

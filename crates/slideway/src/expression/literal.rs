@@ -27,7 +27,8 @@ const MAX_PROPOSALS: usize = 3;
 pub(crate) fn written_unit(text: &str) -> Option<WrittenUnit> {
     let tokens = tokens(text).ok()?;
     // Of what is no unit nobody asks which unit is meant.
-    let is_strange = |kind: TokenKind<'_>| matches!(kind, TokenKind::Name(name) if unit::find(name).is_none());
+    let is_strange =
+        |kind: TokenKind<'_>| matches!(kind, TokenKind::Name(name) if unit::find(name).is_none());
     if tokens.iter().any(|token| is_strange(token.kind)) {
         return None;
     }

@@ -151,8 +151,8 @@ impl<T: Real> ConstraintRow<T> {
 
     /// The block's material point stays on the line of the guide: n . (a_block - a_guide) = 2 omega_guide ds.
     ///
-    /// A contact that is carried by the guide stays on a line of the block; block and guide turn together
-    /// there, so that the row is the same.
+    /// A contact that is carried by the guide stays on a line of the block, whose rate of turning counts. Block and guide turn
+    /// together, so that it is the same, unless the contact may lift off.
     pub(super) fn normal(
         &mut self,
         mechanism: &Mechanism<T>,
@@ -171,7 +171,7 @@ impl<T: Real> ConstraintRow<T> {
         }
         self.add(configuration, slider.guide, contact.point, -contact.normal);
         let turning =
-            T::exactly(2.0) * configuration.angular_velocity(slider.guide) * contact.velocity_at_point;
+            T::exactly(2.0) * configuration.angular_velocity(contact.line_of) * contact.velocity_at_point;
         self.right_hand_side += contact.lean.map_or(turning, |[cos, _]| turning * cos);
     }
 

@@ -3,7 +3,7 @@
 use super::{Contact, Joint, JointKind, Mechanism, Slider, rot90};
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::JointId;
-use crate::model::SliderKind;
+use crate::model::{CarriedBy, SliderKind};
 use std::borrow::Cow;
 
 impl Mechanism {
@@ -53,6 +53,10 @@ impl Mechanism {
     fn face_of(&self, slider: &Slider, (joint, side, sign): (JointId, &str, f64)) -> Slider {
         let tangent = slider.tangent * sign;
         let number = usize::from(sign < 0.0);
+        let gap = |contact: &Contact| contact.play / 2.0 - sign * contact.misalignment;
+        // A corner of the guide is where it is drawn, as far from the face of the block.
+        let behind =
+            |contact: &Contact| if contact.carried_by == CarriedBy::Guide { gap(contact) } else { 0.0 };
         let face = |contact: &Contact, offset: f64, end: &str| Contact {
             name: format!("{}{end}.{side}", contact.name).into(),
             joint,
@@ -63,7 +67,8 @@ impl Mechanism {
             play: 0.0,
             misalignment: 0.0,
             opens: true,
-            gap: contact.play / 2.0 - sign * contact.misalignment,
+            gap: gap(contact),
+            aside: [-behind(contact), contact.aside[1]],
             ..contact.clone()
         };
         let contacts = slider.contacts.iter().map(|contact| &self.contacts[contact.index()]);

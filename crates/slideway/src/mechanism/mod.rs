@@ -292,6 +292,16 @@ impl<T: Real> Contact<T> {
         !self.is_frictionless() || self.mu_static != [T::zero(); 2]
     }
 
+    /// The part with which it travels, and the one on whose line it stays: the guide, with which the block turns; of a corner of the
+    /// guide that may lift off the face of the block.
+    pub(crate) fn frames(&self, slider: &Slider<T>) -> [Frame; 2] {
+        match self.carried_by {
+            CarriedBy::Block => [slider.block, slider.guide],
+            CarriedBy::Guide if self.opens => [slider.guide, slider.block],
+            CarriedBy::Guide => [slider.guide; 2],
+        }
+    }
+
     /// Where it is in the drawing.
     pub fn position(&self, slider: &Slider<T>) -> Vector2<T> {
         let on_line = slider.at + slider.tangent * self.offset;
@@ -592,6 +602,23 @@ impl Slider {
 }
 
 impl Mechanism {
+    /// The ends of the face that a contact which may lift off touches, from the place of the joint along it (m): a part that has
+    /// corners of its own carries the other one no farther than to them.
+    pub(crate) fn ends_of_face(&self, slider: &Slider, contact: &Contact) -> [f64; 2] {
+        let [corner, _] = contact.frames(slider);
+        let own =
+            if corner == slider.block { slider.face_ends() } else { [f64::NEG_INFINITY, f64::INFINITY] };
+        let all = slider.contacts.iter().map(|id| &self.contacts[id.index()]).chain(&slider.apart);
+        let others = all.filter(|other| other.frames(slider)[0] != corner);
+        others.fold(own, |[least, greatest], other| {
+            if other.offset > contact.offset {
+                [least, greatest.min(other.offset)]
+            } else {
+                [least.max(other.offset), greatest]
+            }
+        })
+    }
+
     /// The mechanism that a model describes, with the present values of its parameters.
     ///
     /// # Errors

@@ -161,9 +161,9 @@ impl<'o> Watch<'o> {
                 self.list.push(Watched::Overlap(*joint));
             }
             if phase.joints[index] != JointPhase::Sticking {
-                let limits = [-1.0, 1.0].into_iter().zip(slider.limits());
-                let limited = limits.filter(|(_, limit)| limit.is_finite());
-                self.list.extend(limited.map(|(end, _)| Watched::Travel(*joint, end)));
+                let is_limited = |end: &f64| equations.room_to_slide(*joint, *end).is_finite();
+                let limited = [-1.0, 1.0].into_iter().filter(is_limited);
+                self.list.extend(limited.map(|end| Watched::Travel(*joint, end)));
             }
         }
         for (index, hinge) in phase.hinges.iter().enumerate() {
