@@ -47,7 +47,13 @@ fn typing(typed: &str, command: &mut Command) -> (String, i32) {
     // Reading ends with an error once the program has closed the terminal.
     let _ = master.read_to_end(&mut bytes);
     let code = child.wait().unwrap().code().unwrap();
-    (String::from_utf8(bytes).unwrap().replace("\r\n", "\n"), code)
+    (without_progress(&String::from_utf8(bytes).unwrap().replace("\r\n", "\n")), code)
+}
+
+/// The text without the lines of progress, which a slow machine shows, each in the place of the last one.
+fn without_progress(text: &str) -> String {
+    let is_progress = |line: &&str| line.starts_with('[') && line.contains(" %, ");
+    text.split("\r\u{1b}[K").filter(|line| !is_progress(line)).collect()
 }
 
 /// The text without the styles that the program uses (ECMA-48, SGR: bold and colours of letters), and whether
