@@ -48,6 +48,23 @@ impl<T: Real> Mechanism<T> {
         Some((3 * (self.bodies.len() + body.index()), space.bodies[body.index()].z))
     }
 
+    /// Whether an acceleration of the bodies is one of rotation.
+    pub(crate) fn is_rotation(&self, acceleration: usize) -> bool {
+        if acceleration < 3 * self.bodies.len() {
+            acceleration % 3 == 2
+        } else {
+            !acceleration.is_multiple_of(3)
+        }
+    }
+
+    /// Takes away all weights.
+    pub(crate) fn put_out_gravity(&mut self) {
+        self.gravity.fill(T::zero());
+        if let Some(space) = &mut self.space {
+            space.gravity = T::zero();
+        }
+    }
+
     /// Whether a joint carries something out of the drawing without friction: a force along z, or a couple about one of two
     /// axes in it.
     pub(crate) fn carries(&self, joint: &Joint<T>, component: usize) -> bool {

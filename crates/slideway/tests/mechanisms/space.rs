@@ -10,6 +10,7 @@ use slideway::limits::{LimitsOptions, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::{Proof, Report, SolveReport, Style};
 use slideway::solve::{SolveOptions, solve, solve_with};
+use slideway::standstill::{HoldOptions, Range, hold};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
@@ -975,4 +976,87 @@ fn a_hinge_says_what_it_carries_out_of_the_drawing() {
     assert!(csv.contains("joint,pin,force_z,400,N") && csv.contains("joint,pin,moment_y,-180,N m"), "{csv}");
     let lines = text(&report);
     assert!(lines.contains("force along z on gate") && lines.contains("moment about y on gate"), "{lines}");
+}
+
+impl Carriage {
+    /// Whether friction holds it at rest with this force in place of its drive: normal forces and frictions in equilibrium,
+    /// each friction along the guide and at most `mu |N|`. The sets of a given pattern of sides have no lines, so that one
+    /// is not empty if it has a corner: there each friction is at one of its bounds, but for as many that are within them
+    /// as contacts carry nothing, and one more.
+    fn is_held(&self, push: f64) -> bool {
+        let wrench = |force: Vector3<f64>, at: Vector3<f64>| {
+            let moment = at.cross(&force);
+            Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+        };
+        let given =
+            wrench(self.load.1.into(), self.load.0.into()) + wrench(Vector3::x() * push, self.pull.into());
+        let contact = |one: &Pressed| {
+            let phi = one.phi.to_radians();
+            let at = Vector3::new(one.along, one.aside, one.z);
+            let normal = Vector3::y() * phi.cos() + Vector3::z() * phi.sin();
+            (wrench(normal, at), wrench(-Vector3::x(), at), one.mu[0])
+        };
+        let contacts: Vec<_> = self.contacts.iter().map(contact).collect();
+        (0..4_usize.pow(5)).any(|code| {
+            // 0 and 1: at a bound, 2: carries nothing, 3: within its bounds.
+            let state = |k: usize| code / 4_usize.pow(u32::try_from(k).unwrap()) % 4;
+            let count = |which: usize| (0..5).filter(|&k| state(k) == which).count();
+            if count(3) != count(2) + 1 {
+                return false;
+            }
+            let mut columns = Vec::new();
+            for (k, (normal, friction, mu)) in contacts.iter().enumerate() {
+                match state(k) {
+                    0 => columns.push(normal + friction * *mu),
+                    1 => columns.push(normal - friction * *mu),
+                    3 => columns.extend([*normal, *friction]),
+                    _ => {}
+                }
+            }
+            let Some(answer) = Matrix6::from_columns(&columns).lu().solve(&-given) else { return false };
+            let mut at = 0;
+            (0..5).filter(|&k| state(k) != 2).all(|k| {
+                at += if state(k) == 3 { 2 } else { 1 };
+                state(k) != 3 || answer[at - 1].abs() <= contacts[k].2 * answer[at - 2].abs()
+            })
+        })
+    }
+}
+
+/// 40 random carriages at rest: what friction holds by the corners of its sets of forces is what `hold` says.
+#[test]
+fn what_is_held_in_space_is_what_has_forces_in_equilibrium() {
+    let mut random = Random(0x0dd0_5eed_1234_5678);
+    let (mut compared, mut held) = (0, 0);
+    for _ in 0..40 {
+        let mut carriage = Carriage { one_sided: [false; 5], ..Carriage::random(&mut random) };
+        // Less friction holds less.
+        carriage.contacts.iter_mut().for_each(|contact| contact.mu[0] *= 0.2);
+        let model = carriage.text();
+        let report = hold(&Model::parse(&model).unwrap(), &HoldOptions::default().load("push")).unwrap();
+        let ranges = &report.load.as_ref().unwrap().held;
+        assert!(report.is_decided(), "{}", report.text(Style::PLAIN));
+        let ends: Vec<f64> =
+            ranges.iter().flat_map(|range| [range.least, range.greatest]).flatten().collect();
+        for step in 0..8 {
+            let push = if step < ends.len().min(4) {
+                ends[step] + if step % 2 == 0 { 1e-3 } else { -1e-3 }
+            } else {
+                random.between(-200.0, 200.0)
+            };
+            let is_near = |end: &f64| (push - end).abs() < 1e-6 * (1.0 + end.abs());
+            if ends.iter().any(is_near) {
+                continue;
+            }
+            let within = |range: &Range| {
+                range.least.is_none_or(|least| least < push)
+                    && range.greatest.is_none_or(|greatest| push < greatest)
+            };
+            let says = ranges.iter().any(within);
+            assert_eq!(carriage.is_held(push), says, "{push}\n{}\n{model}", report.text(Style::PLAIN));
+            compared += 1;
+            held += usize::from(says);
+        }
+    }
+    assert!(compared > 250 && held > 50 && compared - held > 50, "{held} of {compared}");
 }
