@@ -13,7 +13,7 @@ use crate::pattern::{GuidedCouple, Law};
 use crate::progress::Work;
 use crate::sharing::check_assembly;
 use crate::sharing::{is_rigid, shared_load, stress_force};
-use nalgebra::{DMatrix, DVector, DVectorView, RowDVector, Vector2};
+use nalgebra::{DMatrix, DVector, DVectorView, RowDVector};
 
 /// Units of the linear programs.
 #[derive(Debug, Clone, Copy)]

@@ -691,6 +691,9 @@ fn planar_mechanisms_in_space_have_the_same_forces() {
     assert!(compared.len() >= 8, "{compared:?}");
 }
 
+/// The normal forces, the accelerations of the gaps and the force of the drive of a state.
+type Lifted = ([f64; 5], [f64; 5], f64);
+
 /// A carriage on a straight guide in ground whose contacts may lie anywhere in the cross-section, some with one face only.
 struct Carriage {
     contacts: Vec<Pressed>,
@@ -769,7 +772,7 @@ impl Carriage {
 
     /// All states, each with its normal forces (0 where it is open), the accelerations of its gaps (0 where it is closed) and
     /// the force of the drive: Newton's and Euler's equations in six degrees of freedom for each of the patterns.
-    fn by_brute_force(&self) -> Option<Vec<([f64; 5], [f64; 5], f64)>> {
+    fn by_brute_force(&self) -> Option<Vec<Lifted>> {
         let [width, height, depth] = self.sides.map(|side| side * side * self.mass / 12.0);
         let [dx, dy] = self.products;
         let mut inertia = Matrix6::from_diagonal_element(self.mass);
