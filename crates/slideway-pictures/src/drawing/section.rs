@@ -1,5 +1,6 @@
 //! The cross-section of a guide: its faces, its block, and all forces across it.
 
+use super::loads::RING;
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
 use super::{ContactStates, Painter, SceneOptions, VALUE_SIZE, View, labels};
 use nalgebra::Vector2;
@@ -173,6 +174,7 @@ impl Painter<'_> {
         for (k, contact, place) in &contacts {
             self.force_in_section(section, (*k, contact), section.drawn(*place));
         }
+        let mut signs: Vec<Point> = Vec::new();
         for load in self.loads_in_section(section) {
             let place = section.drawn(load.place);
             if load.across.norm() > 0.0 {
@@ -182,8 +184,14 @@ impl Painter<'_> {
                 self.arrow_of_force(Class::Load, (place, false), arrow, text);
             }
             if load.along != 0.0 {
+                // Beside each other where several act at one place.
+                let mut at = place;
+                while signs.iter().any(|sign| (sign - at).norm() < 2.0 * RING) {
+                    at.x += 2.4 * RING;
+                }
+                signs.push(at);
                 let text = format!("{} {}", load.name, self.shown(load.along.abs(), "N"));
-                self.out_of_drawing(Class::Load, place, load.along > 0.0, text);
+                self.out_of_drawing(Class::Load, at, load.along > 0.0, text);
             }
         }
         self.axes_of_section();
