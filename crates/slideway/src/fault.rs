@@ -474,6 +474,13 @@ pub enum FaultKind {
         listed(joints), if *excess == 1 { "is" } else { "are" }
     )]
     CarriedTwice { joints: Vec<String>, excess: usize },
+    #[error(
+        "when {} lifted off, {body} would turn out of the drawing, but nothing says with which moments of inertia",
+        listed(contacts)
+    )]
+    UnknownTilt { body: String, contacts: Vec<String> },
+    #[error("{joint} rests on {corners} corners, but `rests_on` has 3 or 4")]
+    Corners { joint: String, corners: u8 },
     #[error("nothing keeps {body} from {motion}")]
     NotCarried { body: String, motion: String },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
@@ -664,7 +671,7 @@ impl FaultKind {
                 "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
             ),
             Self::OneSidedInExcess { .. } => Some(
-                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
+                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; of `rests_on` write `corners = 3`, or leave out `one_sided`: four corners share the weight then; `hold` has the ranges of what they carry at rest"
                     .to_owned(),
             ),
             Self::LiftsWithoutInertia { .. } => Some(
@@ -798,8 +805,12 @@ impl FaultKind {
             Self::CarriedTwice { .. } => {
                 "say which of them carry less: of hinges `carries = \"z\"` (a ball), `\"tilt\"` (a cylinder) or `\"nothing\"`, of sliding joints fewer of `[\"z\", \"roll\", \"pitch\"]`"
             }
+            Self::UnknownTilt { .. } => {
+                "give it `shape = { box = [width, height, depth] }` in place of `moment_of_inertia`"
+            }
+            Self::Corners { .. } => "for others write `supports` with `normal = \"90 deg\"`",
             Self::JointInSpace { .. } => {
-                "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `carries`, `moments`, `products_of_inertia`"
+                "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `rests_on`, `one_sided`, `carries`, `moments`, `products_of_inertia`"
             }
             _ => return None,
         })

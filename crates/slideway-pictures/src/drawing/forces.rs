@@ -1,6 +1,7 @@
 //! Normal reactions and friction where they act, and sliding velocities.
 
 use super::labels::{obstacles, reserve};
+use super::loads::sign_of_z;
 use super::looks::Look;
 use super::outline::{nearest_on_line, upper_side};
 use super::scene::{Class, Point, Shape};
@@ -83,11 +84,12 @@ impl Painter<'_> {
         // It presses from outside what it acts on if that is the inner part, else from inside.
         let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
         let text = self.size_of_force(forces.normal, forces.spread[0]);
+        let out = self.mechanism.contacts[contact.index()].lean.map_or(0.0, |[_, sin]| sin) * forces.normal;
         if in_plane == 0.0 {
-            // It points out of the drawing, or into it.
-            self.circle(Class::Reaction, face, DOT);
-            let ends = [face, face + slide.guide.along * DOT];
-            return self.value_along(Class::Reaction, text, ends, slide.guide.along);
+            return self.out_of_drawing(Class::Reaction, face, out * slide.action() > 0.0, text);
+        }
+        if out != 0.0 {
+            self.scene.elements.extend(sign_of_z(Class::Reaction, face, out * slide.action() > 0.0));
         }
         self.arrow_of_force(Class::Reaction, (face, is_on_inner), direction * length, text);
     }
@@ -143,8 +145,11 @@ impl Painter<'_> {
             let Some(acceleration) = self.states.contacts[index].gap_acceleration else { continue };
             let Some(slide) = self.slide(self.mechanism.contacts[index].joint) else { continue };
             let from = self.face(&slide, ContactId(index), 1.0);
-            let to = from + slide.guide.across * (OPENING * slide.action());
-            self.scene.add(Class::Opening, Shape::Arrow { from, to });
+            let in_plane = self.mechanism.contacts[index].lean.map_or(1.0, |[cos, _]| cos);
+            let to = from + slide.guide.across * (OPENING * slide.action() * in_plane);
+            if in_plane != 0.0 {
+                self.scene.add(Class::Opening, Shape::Arrow { from, to });
+            }
             self.circle(Class::Opening, from, DOT);
             let value = self.shown(acceleration, "m/s^2");
             self.value_along(Class::Opening, value, [from, to], slide.guide.along);

@@ -292,6 +292,8 @@ fn places_along(scene: &Scene, counts: impl Fn(Class) -> bool) -> Vec<Obstacle> 
             | Class::Load
             | Class::Drive
             | Class::Velocity
+            | Class::PointsOut
+            | Class::PointsIn
             | Class::Opening => IMPORTANT,
             Class::Dimension => 2.0 * IMPORTANT,
             Class::Hatch => 3.0,

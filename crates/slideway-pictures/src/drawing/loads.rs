@@ -11,7 +11,7 @@ use slideway::configuration::Configuration;
 use slideway::ids::{BodyId, Frame};
 use slideway::kinetics::load_wrenches;
 use slideway::mechanism::{Attachment, Drive, Effort, JointKind, Load, LoadKind, Mechanism, Pad, Quantity};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_1_SQRT_2, TAU};
 
 /// Length of an arrow that is not to scale.
 const ARROW: f64 = 46.0;
@@ -24,6 +24,8 @@ pub(super) const CORNER: f64 = 5.0;
 /// A force whose part along a belt is smaller than itself by at most this part of it is along the belt, as rounding
 /// goes.
 const ALONG: f64 = 1e-9;
+/// Radius of the ring around the sign of a force along z.
+pub(super) const RING: f64 = 6.5;
 /// Radius of the arrow of a torque.
 const TORQUE: f64 = 21.0;
 
@@ -193,6 +195,11 @@ impl Painter<'_> {
             let text = self.named(&load.name, Some(force.norm()), "N");
             self.force(Class::Load, at, force, text);
         }
+        let wrenches = load_wrenches(self.mechanism, self.configuration, load).unwrap_or_default();
+        if let Some(along_z) = wrenches.first().map(|wrench| wrench.along_z).filter(|force| *force != 0.0) {
+            let text = self.named(&load.name, Some(along_z), "N");
+            self.out_of_drawing(Class::Load, self.attached(&at), along_z > 0.0, text);
+        }
     }
 
     /// Draws the forces of a spring or damper on the bodies at its ends, where it is drawn.
@@ -354,6 +361,11 @@ impl Painter<'_> {
                 let at = Attachment::new(Frame::Body(BodyId(index)), body.centre_of_mass);
                 self.force(Class::Load, at, weight, format!("{name} {}", self.shown(weight.norm(), "N")));
             }
+            let along_z = mechanism.space.as_ref().map_or(0.0, |space| space.gravity * body.mass);
+            if along_z != 0.0 {
+                let text = format!("{name} {}", self.shown(along_z.abs(), "N"));
+                self.out_of_drawing(Class::Load, self.centre(BodyId(index)), along_z > 0.0, text);
+            }
         }
     }
 }
@@ -371,6 +383,24 @@ pub(super) fn load_force(
     Some(wrenches.first()?.force)
 }
 
+/// A dot in a ring, for a force out of the drawing, or a cross in it, for one into the drawing.
+pub(super) fn sign_of_z(class: Class, place: Point, is_out: bool) -> Vec<Element> {
+    let shape = |class: Class, shape: Shape| Element { class, shape };
+    let mut shapes = vec![
+        shape(Class::MassRing, Shape::Circle(place, RING)),
+        shape(class, Shape::Line(arc(place, RING, 0.0, TAU))),
+    ];
+    if is_out {
+        shapes.push(shape(Class::PointsOut, Shape::Circle(place, 1.4)));
+        return shapes;
+    }
+    for side in [1.0, -1.0] {
+        let half = Point::new(1.0, side) * (RING * FRAC_1_SQRT_2);
+        shapes.push(shape(Class::PointsIn, Shape::Line(vec![place - half, place + half])));
+    }
+    shapes
+}
+
 /// Returns the sample of a class for a key, so long from a place on: an arrow, or a sign.
 pub(crate) fn sample(class: Class, from: Point, length: f64) -> Vec<Shape> {
     let to = from + Point::new(length, 0.0);
@@ -378,6 +408,10 @@ pub(crate) fn sample(class: Class, from: Point, length: f64) -> Vec<Shape> {
     match class {
         Class::Break => broken(middle, Point::x()).collect(),
         Class::JammedCorner => vec![Shape::Circle(middle, CORNER)],
+        Class::PointsOut | Class::PointsIn => {
+            let signs = sign_of_z(class, middle, class == Class::PointsOut);
+            signs.into_iter().skip(1).map(|element| element.shape).collect()
+        }
         Class::Cone => vec![Shape::Area(vec![from, to - Point::new(0.0, 5.0), to + Point::new(0.0, 5.0)])],
         _ => vec![Shape::Arrow { from, to }],
     }

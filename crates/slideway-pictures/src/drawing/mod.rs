@@ -24,6 +24,7 @@ mod panels;
 mod paragraph;
 mod play;
 mod scene;
+mod section;
 mod sheet;
 mod slide;
 mod sliders;
@@ -385,6 +386,15 @@ impl Painter<'_> {
         let units = &self.mechanism.units;
         let unit = if si == "N" { units.clone().suited_to_most(si, &[value]).of(si) } else { units.of(si) };
         quantity(value, &unit)
+    }
+
+    /// The sign of a force out of the drawing, a dot in a ring, or into it, a cross, and its value.
+    fn out_of_drawing(&mut self, class: Class, place: Point, is_out: bool, text: String) {
+        for shape in loads::sign_of_z(class, place, is_out) {
+            self.scene.elements.push(shape);
+        }
+        let reach = Point::new(loads::RING, 0.0);
+        self.value_along(class, text, [place - reach, place + reach], Point::new(0.0, -1.0));
     }
 
     fn slide(&self, joint: JointId) -> Option<Slide> {

@@ -2,6 +2,7 @@
 
 use super::loads::LONGEST_ARROW;
 use super::scene::Scene;
+use super::section::{joints_in_space, section};
 use super::units::known_forces;
 use super::{ContactStates, SceneOptions, View, between, number, one_way, quantity, scene, signs};
 use slideway::configuration::Configuration;
@@ -21,6 +22,10 @@ const NOTHING: f64 = 1e-6;
 /// Remark on forces of which only ranges are known.
 const RANGES: &str =
     "Arrows are in the middle of their ranges: which forces it has depends on how it came to rest.";
+
+/// Below the cross-section of a guide.
+const SECTION: &str =
+    "Seen against the direction of sliding. Friction acts along the guide, and is not shown.";
 
 /// Remark on a picture whose guides are drawn with a play that can be seen instead of their own.
 pub(crate) const EXAGGERATED: &str = "The play in the guides is exaggerated.";
@@ -96,6 +101,8 @@ pub struct Panel {
     pub(crate) caption: Caption,
     /// Drawing units for a newton, if its forces are to scale.
     pub(crate) force_scale: Option<f64>,
+    /// Drawing units for a metre, if they are not those of the view.
+    pub(crate) scale: Option<f64>,
 }
 
 /// The subject of drawings: a mechanism in a configuration, with its solutions.
@@ -171,7 +178,7 @@ impl Drawn<'_> {
         let scene = scene(self.mechanism, self.configuration, &states, self.view, &options);
         let heading = "The mechanism, to scale".to_owned();
         let caption = Caption { heading, lines: self.preloads(), ..Caption::default() };
-        Panel { scene, caption, force_scale }
+        Panel { scene, caption, force_scale, scale: None }
     }
 
     /// The friction of preloads, a line for each contact that has some: "Preload of lower.front: 9.81 N of friction."
@@ -211,7 +218,7 @@ impl Drawn<'_> {
         lines.push("The arrows show proportions, not sizes.".to_owned());
         lines.extend(scale_of_play(&scene));
         let caption = Caption { heading: "Why it jams".to_owned(), lines, ..Caption::default() };
-        Some(Panel { scene, caption, force_scale: None })
+        Some(Panel { scene, caption, force_scale: None, scale: None })
     }
 
     /// Why there is no drawing of a jam, if there is no solution and friction is the reason.
@@ -250,7 +257,7 @@ impl Drawn<'_> {
         };
         let lines = std::iter::once(why).chain(scale_of_play(&scene)).collect();
         let caption = Caption { heading: "Why it tips".to_owned(), lines, ..Caption::default() };
-        Panel { scene, caption, force_scale }
+        Panel { scene, caption, force_scale, scale: None }
     }
 
     /// Returns the drawing units for a newton where this is the greatest force, those that can be stated, and
@@ -302,7 +309,37 @@ impl Drawn<'_> {
         lines.extend(scene.friction_circles.map(scale_of_circles));
         let heading = if signs.is_empty() { heading } else { format!("{heading}:  {signs}") };
         let table = pins(solution, self.mechanism);
-        Panel { scene, caption: Caption { heading, lines, table }, force_scale }
+        Panel { scene, caption: Caption { heading, lines, table }, force_scale, scale: None }
+    }
+
+    /// The cross-section of each sliding joint whose contacts do not all lie in the drawing, in each solution that is shown.
+    pub(super) fn sections(&self, shown: Shown) -> Vec<Panel> {
+        let solutions = self.report.map_or(&[][..], |report| &report.solutions);
+        let is_shown = |index: usize| match shown {
+            Shown::All => index < MOST,
+            Shown::Solution(number) => index + 1 == number,
+            Shown::Mechanism | Shown::GapState(_) => false,
+        };
+        let numbered = solutions.iter().enumerate().filter(|(index, _)| is_shown(*index));
+        let of_solution = |(index, solution): (usize, &Solution)| {
+            let (scale, force_scale, longest_arrow) = self.scale(self.greatest_force(solution));
+            let options = SceneOptions { longest_arrow, ..SceneOptions::contact_mode(scale) };
+            let states = ContactStates::of(solution);
+            let joints = joints_in_space(self.mechanism).map(move |joint| {
+                let (scene, scale) =
+                    section(self.mechanism, self.configuration, &states, (self.view, &options), joint);
+                let name = &self.mechanism.joints[joint.index()].name;
+                let number =
+                    if solutions.len() == 1 { String::new() } else { format!("Solution {}, ", index + 1) };
+                let heading = if number.is_empty() { "Section of" } else { "section of" };
+                let lines = vec![SECTION.to_owned()];
+                let caption =
+                    Caption { heading: format!("{number}{heading} {name}"), lines, ..Caption::default() };
+                Panel { scene, caption, force_scale, scale: Some(scale) }
+            });
+            joints.collect::<Vec<_>>()
+        };
+        numbered.flat_map(of_solution).collect()
     }
 
     /// The forces that hold it.
@@ -320,7 +357,7 @@ impl Drawn<'_> {
         }
         lines.extend(scale_of_play(&scene));
         let caption = Caption { heading: "Forces at rest".to_owned(), lines, ..Caption::default() };
-        Panel { scene, caption, force_scale }
+        Panel { scene, caption, force_scale, scale: None }
     }
 
     /// The forces of a contact that have no arrow: "Friction of floor: -65.17 to 92.48 N."

@@ -63,7 +63,8 @@ impl Play<'_> {
     pub(super) fn gaps(&self) -> impl Iterator<Item = f64> {
         (0..self.mechanism.contacts.len()).map(|index| {
             let contact = ContactId(index);
-            if self.sharing(contact).is_some() {
+            // Play across the drawing says nothing of a normal that leans out of it.
+            if self.sharing(contact).is_some() || self.mechanism.contacts[index].lean.is_some() {
                 return 0.0;
             }
             let joint = self.mechanism.contacts[index].joint;

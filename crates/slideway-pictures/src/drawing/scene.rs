@@ -69,6 +69,10 @@ pub enum Class {
     Drive,
     /// A sliding velocity.
     Velocity,
+    /// The sign of a force that points out of the drawing, towards the reader.
+    PointsOut,
+    /// The sign of a force that points into the drawing.
+    PointsIn,
     /// The acceleration of the gap of a contact that lifts off.
     Opening,
     /// A dimension.

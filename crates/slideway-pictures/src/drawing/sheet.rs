@@ -142,7 +142,8 @@ pub fn sheet(
     let mechanism = &in_units_of(report, mechanism, configuration);
     let view = view(mechanism, configuration, 1.0);
     let drawn = Drawn { report, rest, ..Drawn::by_itself(mechanism, configuration, &view) };
-    let panels = drawn.panels(shown)?;
+    let mut panels = drawn.panels(shown)?;
+    panels.extend(drawn.sections(shown));
     let lines = match forces {
         Some(Forces::InMotion(report)) => {
             vec![state_line(&report.state, &mechanism.units), with_minus_signs(&answer(report))]
@@ -381,12 +382,13 @@ impl Layout<'_> {
     /// Adds a drawing with what stands below it; the y below that.
     fn panel(&self, scene: &mut Scene, panel: &Panel, picture: &Bounds, corner: Point) -> f64 {
         let width = picture.size().x.max(LEAST_WIDTH);
-        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / self.view.scale, &self.units.of("m"));
+        let scale = panel.scale.unwrap_or(self.view.scale);
+        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / scale, &self.units.of("m"));
         let free = 0.5 * (width - picture.size().x);
         let by = corner + Point::new(free, 0.0) - picture.least;
         scene.elements.extend(panel.scene.clone().shifted(by).elements);
         let mut foot = corner.y + picture.size().y + 26.0;
-        self.legend(scene, panel, length, Point::new(corner.x, foot));
+        self.legend(scene, panel, (length, length * scale), Point::new(corner.x, foot));
         foot += 16.0;
         let heading = &panel.caption.heading;
         foot = paragraph(scene, heading, NAME_SIZE + 1.0, Point::new(corner.x, foot), width);
@@ -396,11 +398,11 @@ impl Layout<'_> {
         table(scene, &panel.caption.table, Point::new(corner.x, foot))
     }
 
-    /// Bars of a length and of a force.
-    fn legend(&self, scene: &mut Scene, panel: &Panel, length: f64, corner: Point) {
+    /// Bars of a length (m), which is so long in the drawing, and of a force.
+    fn legend(&self, scene: &mut Scene, panel: &Panel, (length, drawn): (f64, f64), corner: Point) {
         let from = corner + Point::new(1.0, 0.0);
-        let mut right = from.x + length * self.view.scale;
-        for line in dimensions::scale_bar(from, length * self.view.scale) {
+        let mut right = from.x + drawn;
+        for line in dimensions::scale_bar(from, drawn) {
             scene.add(Class::Edge, Shape::Line(line));
         }
         right = beside(scene, Point::new(right, corner.y), quantity(length, &self.units.of("m")));
@@ -459,6 +461,8 @@ fn key(scene: &mut Scene, y: f64, most: f64, forces_on: &str) -> f64 {
         (Class::PinForce, "force of a pin, tangent to its friction circle".to_owned()),
         (Class::Load, "load, weight or drive".to_owned()),
         (Class::Drive, "drive, its size unknown".to_owned()),
+        (Class::PointsOut, "force out of the drawing".to_owned()),
+        (Class::PointsIn, "force into the drawing".to_owned()),
         (Class::Velocity, "sliding velocity".to_owned()),
         (Class::Opening, "contact that lifts off, acceleration of its gap".to_owned()),
         (Class::Break, "not to scale".to_owned()),

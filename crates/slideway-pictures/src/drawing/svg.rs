@@ -174,6 +174,8 @@ pub fn class_name(class: Class) -> &'static str {
         Class::Break => "s-break",
         Class::Drive => "s-drive",
         Class::Velocity => "s-velocity",
+        Class::PointsOut => "s-points-out",
+        Class::PointsIn => "s-points-in",
         Class::Opening => "s-opening",
         Class::Dimension => "s-dimension",
         Class::Leader => "s-leader",
@@ -283,6 +285,7 @@ pub fn rules(colour: &Colour) -> String {
     rule(".s-jammed-corner", format!("fill: {warning}; {}", pen(background, 1.2)));
     rule(".s-opening", format!("fill: {warning}; {}", pen(warning, 2.0)));
     rule("circle.s-opening", format!("fill: {background};"));
+    rule(".s-points-out, .s-points-in", format!("fill: {ink}; {}", pen(ink, 1.6)));
     rule(".s-break", format!("fill: none; {}", pen(ink, 1.6)));
     rule(".s-drive .s-line, .s-drive.s-line", "stroke-dasharray: 5 4;".to_owned());
     rule(".s-dimension", format!("fill: {muted}; {}", pen(muted, 1.0)));

@@ -16,6 +16,7 @@ mod overlaps;
 mod random;
 mod raster;
 mod redundant;
+mod space;
 mod stops;
 
 use slideway::configuration::Configuration;

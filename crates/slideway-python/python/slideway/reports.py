@@ -30,6 +30,8 @@ __all__ = [
     "Branch",
     "BranchReport",
     "BranchingReport",
+    "Carried",
+    "CarriedQuantity",
     "CauseKind",
     "CauseReport",
     "CertificateKind",
@@ -210,6 +212,15 @@ Approach = Literal["below", "above"]
 
 - `"below"`: From below.
 - `"above"`: From above."""
+
+CarriedQuantity = Literal["force_z", "moment_x", "moment_y", "roll", "pitch"]
+"""What a joint carries out of the drawing without friction.
+
+- `"force_z"`: A force along z, out of the drawing.
+- `"moment_x"`: A moment about the x axis, of a hinge.
+- `"moment_y"`: A moment about the y axis, of a hinge.
+- `"roll"`: A moment about the direction of sliding.
+- `"pitch"`: A moment about the normal of a guide in the drawing."""
 
 CauseKind = Literal[
     "start",
@@ -823,6 +834,9 @@ class Body(Record):
     """Acceleration of the centre of mass (m/s^2)."""
     angular_acceleration: float
     """Angular acceleration (rad/s^2)."""
+    out_of_plane: tuple[float, float, float] | None = None
+    """Of a body that lifts off or tips out of the drawing: its acceleration along z (m/s^2), and its angular
+    accelerations about x and y (rad/s^2); absent of others."""
     residual_force: float
     """Left-over force of the recomputed balance (N)."""
     residual_moment: float
@@ -883,6 +897,22 @@ class BranchingReport(Record):
     """The number of the phase taken at each event with several possible phases, counted from 1."""
     motion: SimulateReport
     """The motion."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Carried(Record):
+    """A force or moment that a joint carries out of the drawing without friction."""
+
+    name: str
+    """The joint."""
+    on: str
+    """The body on which it is counted."""
+    quantity: CarriedQuantity
+    """Which one it is."""
+    value: float
+    """Its value."""
+    unit: str
+    """"N" or "N m"."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2943,6 +2973,8 @@ class Solution(_mixins.Solution, Record):
     """The contact mode of each sliding joint."""
     hinges: tuple[Hinge, ...]
     """The hinge forces."""
+    carried: tuple[Carried, ...] = ()
+    """What joints carry out of the drawing without friction; absent of a planar model."""
     bodies: tuple[Body, ...]
     """The accelerations of the bodies."""
     coordinates: tuple[CoordinateAcceleration, ...]

@@ -695,9 +695,14 @@ impl Builder<'_> {
             let place = self.mechanism.drives[drives[0]].place.clone();
             return Fault::new(FaultKind::DriveCannotMove { drives: names, motion }, place);
         }
-        let Some(first) =
-            (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()))
-        else {
+        let out_of_plane = (bodies..self.layout.accelerations).find(|&index| significant(weights[index]));
+        let in_plane = (0..self.mechanism.bodies.len()).find(|b| significant(weights.rows(3 * b, 3).amax()));
+        if let (None, Some(index)) = (in_plane, out_of_plane) {
+            let body = &self.mechanism.bodies[(index - bodies) / 3];
+            let motion = format!("{} moves out of the drawing", body.name);
+            return Fault::new(FaultKind::MotionWithoutInertia { motion }, body.place.clone());
+        }
+        let Some(first) = in_plane else {
             let quantity = "a coefficient of the kinetic equations".to_owned();
             return Fault::general(if condition.is_finite() {
                 FaultKind::IllConditioned { condition: *condition }

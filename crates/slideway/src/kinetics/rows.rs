@@ -92,7 +92,9 @@ impl<T: Real> ConstraintRow<T> {
                 self.add_rotation(against, -T::one());
             }
             CoordinateKind::Displacement(point, axis) => {
-                self.add(configuration, point.frame, configuration.position(mechanism, &point), axis);
+                let place = configuration.position(mechanism, &point);
+                self.add(configuration, point.frame, place, axis);
+                self.add_out((mechanism, configuration), point.frame, (place, point.z), (axis, T::zero()));
             }
         }
     }
@@ -107,7 +109,7 @@ impl<T: Real> ConstraintRow<T> {
         self.clear();
         let tangent = configuration.tangent(mechanism, slider);
         let place = middle(mechanism, configuration, slider) - rot90(tangent) * slider.rim();
-        self.add_relative(configuration, slider, (place, tangent));
+        self.add_relative((mechanism, configuration), slider, (place, tangent));
     }
 
     /// Adds sign * axis . (acceleration of the material point of `frame` at `place`).
@@ -249,18 +251,20 @@ impl<T: Real> ConstraintRow<T> {
     ) {
         let tangent = configuration.direction(slider.guide, slider.tangent);
         let place = middle(mechanism, configuration, slider);
-        self.add_relative(configuration, slider, (place, tangent));
+        self.add_relative((mechanism, configuration), slider, (place, tangent));
     }
 
     /// The acceleration of the block against the guide at a place, along an axis.
     fn add_relative(
         &mut self,
-        configuration: &Configuration<T>,
+        (mechanism, configuration): (&Mechanism<T>, &Configuration<T>),
         slider: &Slider<T>,
         (place, axis): (Vector2<T>, Vector2<T>),
     ) {
-        self.add(configuration, slider.block, place, axis);
-        self.add(configuration, slider.guide, place, -axis);
+        for (frame, axis) in [(slider.block, axis), (slider.guide, -axis)] {
+            self.add(configuration, frame, place, axis);
+            self.add_out((mechanism, configuration), frame, (place, slider.z), (axis, T::zero()));
+        }
     }
 }
 

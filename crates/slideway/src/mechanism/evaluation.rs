@@ -291,10 +291,24 @@ impl<T: Real> Evaluation<'_, T> {
         Contact {
             name: contact.name.clone(),
             joint,
-            offset: contact.offset.map_or(offset, |offset| self.value(offset)),
-            aside: contact.aside.map(|aside| self.or_zero(aside)),
-            lean: contact.normal.map(|normal| self.value(normal).direction()),
-            height: contact.height.map(|height| self.value(height)).or(contact.normal.map(|_| T::zero())),
+            offset: match contact.corner {
+                None => contact.offset.map_or(offset, |offset| self.value(offset)),
+                Some([along, _]) => {
+                    T::exactly(along) * contact.offset.map_or(length, |length| self.value(length))
+                }
+            },
+            aside: match (contact.aside.map(|aside| self.or_zero(aside)), contact.corner) {
+                (aside, None) => aside,
+                ([width, z], Some([_, across])) => [T::exactly(across) * width, z],
+            },
+            lean: contact
+                .normal
+                .map(|normal| self.value(normal).direction())
+                .or(contact.corner.map(|_| [T::zero(), T::one()])),
+            height: contact
+                .height
+                .map(|height| self.value(height))
+                .or((contact.normal.is_some() || contact.corner.is_some()).then(T::zero)),
             carried_by: contact.carried_by,
             mu: contact.mu.map(|mu| self.value(mu)),
             law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),

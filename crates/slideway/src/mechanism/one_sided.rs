@@ -30,9 +30,11 @@ impl<T: Real> Mechanism<T> {
         self.contacts.iter().any(|contact| contact.opens)
     }
 
-    /// Returns whether a joint may lift off its face, or is apart from it.
+    /// Returns whether a joint lies on a face in the drawing that it may leave with all of its contacts, or is apart from it.
     pub fn may_lift_off(&self, slider: &Slider<T>) -> bool {
-        !slider.apart.is_empty() || slider.contacts.iter().any(|contact| self.contacts[contact.index()].opens)
+        let mut contacts = slider.contacts.iter().map(|contact| &self.contacts[contact.index()]);
+        let leaves = |contact: &Contact<T>| contact.opens && contact.lean.is_none();
+        !slider.apart.is_empty() || (!slider.contacts.is_empty() && contacts.all(leaves))
     }
 
     /// The joints that do not slip in the state.

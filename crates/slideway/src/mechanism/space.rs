@@ -48,6 +48,23 @@ impl<T: Real> Mechanism<T> {
         Some((3 * (self.bodies.len() + body.index()), space.bodies[body.index()].z))
     }
 
+    /// Whether an acceleration of the bodies is one of rotation.
+    pub(crate) fn is_rotation(&self, acceleration: usize) -> bool {
+        if acceleration < 3 * self.bodies.len() {
+            acceleration % 3 == 2
+        } else {
+            !acceleration.is_multiple_of(3)
+        }
+    }
+
+    /// Takes away all weights.
+    pub(crate) fn put_out_gravity(&mut self) {
+        self.gravity.fill(T::zero());
+        if let Some(space) = &mut self.space {
+            space.gravity = T::zero();
+        }
+    }
+
     /// Whether a joint carries something out of the drawing without friction: a force along z, or a couple about one of two
     /// axes in it.
     pub(crate) fn carries(&self, joint: &Joint<T>, component: usize) -> bool {
@@ -95,10 +112,27 @@ impl Mechanism {
             }
         }
         faults.or(())?;
-        match self.not_carried() {
-            Some(fault) => Err(fault.into()),
-            None => Ok(()),
+        if let Some(fault) = self.not_carried().or_else(|| self.tilts_without_inertia()) {
+            return Err(fault.into());
         }
+        Ok(())
+    }
+
+    /// A body that turns out of the drawing once contacts lift off, and whose moments of inertia for that are not known.
+    fn tilts_without_inertia(&self) -> Option<Fault> {
+        let (space, open) = (self.space.as_ref()?, self.one_sided().collect::<Vec<_>>());
+        if open.is_empty() || space.bodies.iter().all(|body| body.tilt.is_some()) {
+            return None;
+        }
+        let indices: Vec<usize> = open.iter().map(|contact| contact.index()).collect();
+        let left = self.without_contacts(&indices);
+        let rows: Vec<Row> = left.reaction_rows().into_iter().map(|(row, _)| row).collect();
+        let motions = out_of_plane_motions(&rows, self.bodies.len());
+        let tilts = |body: &usize| motions.rows(3 * body + 1, 2).amax() > ROUNDING;
+        let body = (0..self.bodies.len()).find(|body| space.bodies[*body].tilt.is_none() && tilts(body))?;
+        let Body { name, place, .. } = &self.bodies[body];
+        let contacts = indices.iter().map(|&k| self.contacts[k].name.to_string()).collect();
+        Some(Fault::new(FaultKind::UnknownTilt { body: name.to_string(), contacts }, place.clone()))
     }
 
     /// Refuses joints that carry more out of the plane without friction than is determined, as in a closed loop.
@@ -134,7 +168,6 @@ impl Mechanism {
             (slider.is_disc() || slider.round.is_some(), "a disc"),
             (slider.loose, "a loose guide"),
             (!slider.apart.is_empty(), "a contact that is apart from its face"),
-            (contacts().any(|contact| contact.opens), "a contact that may lift off"),
             (contacts().any(|contact| contact.face.is_some()), "a press fit"),
             (
                 leans && contacts().any(|contact| contact.misalignment_law.is_some()),

@@ -247,8 +247,9 @@ impl Model {
             };
             of_kind || joint.carries.is_some()
         };
-        let contact =
-            |contact: &Contact| contact.aside != [None; 2] || contact.normal.or(contact.height).is_some();
+        let contact = |contact: &Contact| {
+            contact.one_sided || contact.aside != [None; 2] || contact.normal.or(contact.height).is_some()
+        };
         let load = |load: &super::Load| match &load.kind {
             LoadKind::Force { at, along_z, .. } => at.z.or(*along_z).is_some(),
             LoadKind::Torque { tilt, .. } => tilt.is_some(),

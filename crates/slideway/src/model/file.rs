@@ -211,6 +211,8 @@ pub(super) struct SliderTable {
     /// What it carries out of the drawing without friction, such as ball rails: any of "z", "roll" and "pitch".
     /// Default: nothing but what its contacts carry.
     pub(super) carries: Option<Vec<SliderCarries>>,
+    /// Corners that carry along z, in place of `supports` with `normal = "90 deg"`: `rests_on = { width = "0.5 m" }`.
+    pub(super) rests_on: Option<RestsOnTable>,
     /// Further contacts by their names, such as `middle = { at = "20 mm" }`: they are redundant, and share the load
     /// by play, stiffness and misalignment.
     #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::schema::SupportTable>>"))]
@@ -273,6 +275,9 @@ pub(super) struct ContactTable {
     /// Direction of its normal in the cross-section, an angle from n towards z: "90 deg" carries along z. Default: 0.
     #[cfg_attr(test, schemars(skip))]
     pub(super) normal: Option<Quantity>,
+    /// Whether it has one face, which it may leave.
+    #[cfg_attr(test, schemars(skip))]
+    pub(super) one_sided: Option<bool>,
     /// "block": the contact travels with the block (default); "guide": it stays at a place of the guide.
     pub(super) carried_by: Option<CarriedBy>,
     /// Kinetic friction coefficient, or { plus = .., minus = .. } by the side of contact.
@@ -307,6 +312,29 @@ pub(super) struct PadTable {
     pub(super) length: Option<Quantity>,
     /// Its width across the plane of the mechanism (m).
     pub(super) width: Quantity,
+}
+
+/// The corners by which a block rests on its guide.
+#[derive(Deserialize)]
+#[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
+pub(super) struct RestsOnTable {
+    /// Distance of the left corners from the right ones; they are at half of it from the guide's line.
+    pub(super) width: Quantity,
+    /// Distance of the front corners from the rear ones. Default: the length of the block.
+    pub(super) length: Option<Quantity>,
+    /// 4 (default): `front_left`, `front_right`, `rear_left` and `rear_right`, which share the load; 3: both in front, and
+    /// `rear_middle`.
+    pub(super) corners: Option<u8>,
+    /// `true`: nothing holds it down, so that it may lift off and tip. Default: `false`.
+    pub(super) one_sided: Option<bool>,
+    /// How far the corners are out of the drawing. Default: 0.
+    pub(super) z: Option<Quantity>,
+    /// Kinetic friction coefficient. Default: that of the joint.
+    pub(super) mu: Option<PerSide>,
+    /// Static friction coefficient, not below `mu`. Default: `mu`.
+    pub(super) mu_static: Option<PerSide>,
+    /// Stiffness of each corner (N/m).
+    pub(super) stiffness: Option<Quantity>,
 }
 
 /// What stops a block at both ends of its travel, or at one.

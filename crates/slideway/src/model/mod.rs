@@ -339,7 +339,10 @@ pub struct Contact {
     pub offset: Option<FormulaId>,
     /// Its distance from the guide's line along n, and from the drawing along z.
     pub aside: [Option<FormulaId>; 2],
-    /// The angle of its normal from n towards z.
+    /// Of a corner on which a block rests: by what the distances of both ends and of both sides are multiplied to give its
+    /// place and its distance along n.
+    pub corner: Option<[f64; 2]>,
+    /// The angle of its normal from n towards z, which is 90 degrees at a corner.
     pub normal: Option<FormulaId>,
     /// The distance of its faces along its normal; nothing means that of the joint, or zero where its normal leans.
     pub height: Option<FormulaId>,
@@ -367,6 +370,8 @@ pub struct Contact {
     pub face: Option<Face<usize>>,
     /// Whether it lifts off its face in place of pressing another one.
     pub opens: bool,
+    /// Whether it does so beside contacts of the same joint that press both faces.
+    pub one_sided: bool,
 }
 
 /// The area in contact at a contact.

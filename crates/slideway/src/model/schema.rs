@@ -137,6 +137,8 @@ struct SectionTable {
     height: Option<Quantity>,
     /// Direction of its normal in the cross-section, an angle from n towards z: "90 deg" carries along z. Default: 0.
     normal: Option<Quantity>,
+    /// `true`: it has one face, on the side from which a positive normal force comes, and may lift off it. Default: `false`.
+    one_sided: Option<bool>,
 }
 
 /// A table that has some keys of others.
@@ -157,10 +159,10 @@ macro_rules! some_keys {
 
 some_keys!(BlockSliderTable: ContactTable, SliderTable; without ["carried_by"]; required ["along", "length"];
     "A block with a contact at each end.");
-some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", "front", "rear", "supports"];
+some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", "front", "rear", "supports", "rests_on"];
     required ["along", "length"]; "A slider with one normal force and a couple.");
 some_keys!(PinInSlotTable: ContactTable, SliderTable;
-    without ["carried_by", "front", "rear", "supports", "length", "height", "fit", "preload_line"];
+    without ["carried_by", "front", "rear", "supports", "rests_on", "length", "height", "fit", "preload_line"];
     required ["along"]; "A pin in a slot.");
 some_keys!(CornerOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", "length", "centre", "radius"];
     required ["at"]; "A corner on a straight face, which it may leave.");

@@ -74,10 +74,18 @@ impl Rows {
                 row("hinge", &hinge.name, "friction_couple", friction.couple, "N m");
             }
         }
+        for carried in &solution.carried {
+            row("joint", &carried.name, carried.quantity.key(), carried.value, carried.unit);
+        }
         for body in &solution.bodies {
             row("body", &body.name, "acceleration_x", body.acceleration[0], "m/s^2");
             row("body", &body.name, "acceleration_y", body.acceleration[1], "m/s^2");
             row("body", &body.name, "angular_acceleration", body.angular_acceleration, "rad/s^2");
+            if let Some([along_z, about_x, about_y]) = body.out_of_plane {
+                row("body", &body.name, "acceleration_z", along_z, "m/s^2");
+                row("body", &body.name, "angular_acceleration_x", about_x, "rad/s^2");
+                row("body", &body.name, "angular_acceleration_y", about_y, "rad/s^2");
+            }
             row("body", &body.name, "residual_force", body.residual_force, "N");
             row("body", &body.name, "residual_moment", body.residual_moment, "N m");
         }

@@ -341,6 +341,9 @@ pub struct Solution {
     pub joints: Vec<JointMode>,
     /// The hinge forces.
     pub hinges: Vec<Hinge>,
+    /// What joints carry out of the drawing without friction; absent of a planar model.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub carried: Vec<Carried>,
     /// The accelerations of the bodies.
     pub bodies: Vec<Body>,
     /// The accelerations of the chosen coordinates.
@@ -363,7 +366,11 @@ impl Solution {
             forces.into_iter().chain(couple).chain(contact.pressure.map(|pressure| ("Pa", pressure)))
         });
         let hinges = self.hinges.iter().flat_map(|hinge| hinge.force.map(|force| ("N", force)));
-        contacts.chain(hinges).chain(self.drives.iter().map(|drive| (drive.unit, drive.effort)))
+        let carried = self.carried.iter().map(|carried| (carried.unit, carried.value));
+        contacts
+            .chain(hinges)
+            .chain(carried)
+            .chain(self.drives.iter().map(|drive| (drive.unit, drive.effort)))
     }
 
     /// A state at a contact.
@@ -699,17 +706,29 @@ pub enum OnFace {
     Opens,
 }
 
+/// The contact mode of a joint: what it does on a face that it may leave, where it touches, and about which line it tips.
+#[derive(Debug, Default)]
+pub(crate) struct ModeInWords {
+    pub(crate) face: Option<OnFace>,
+    pub(crate) place: String,
+    pub(crate) line: Option<String>,
+}
+
 impl JointMode {
-    pub(crate) fn new(name: String, (face, place): (Option<OnFace>, String)) -> Self {
+    pub(crate) fn new(name: String, ModeInWords { face, place, line }: ModeInWords) -> Self {
         let mut joint = Self { name, mode: String::new(), face, slip: None, place, start: "" };
-        joint.mode = joint.place().to_owned() + if face == Some(OnFace::Tips) { ": it tips" } else { "" };
+        joint.mode = match (face, line) {
+            (Some(OnFace::Tips), Some(line)) => format!("{}: it tips about the line {line}", joint.place()),
+            (Some(OnFace::Tips), None) => format!("{}: it tips", joint.place()),
+            _ => joint.place().to_owned(),
+        };
         joint
     }
 
     /// Where it touches: "on its left corner", "closed".
     pub(crate) fn place(&self) -> &str {
         match self.face {
-            Some(OnFace::Opens) => "lifts off",
+            Some(OnFace::Opens) if self.place.is_empty() => "lifts off",
             Some(OnFace::Closed) if self.place.is_empty() => "closed",
             _ => &self.place,
         }
@@ -764,6 +783,63 @@ pub struct HingeFriction {
     pub angular_velocity: f64,
 }
 
+/// A force or moment that a joint carries out of the drawing without friction.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Carried {
+    /// The joint.
+    pub name: String,
+    /// The body on which it is counted.
+    pub on: String,
+    /// Which one it is.
+    pub quantity: CarriedQuantity,
+    /// Its value.
+    pub value: f64,
+    /// "N" or "N m".
+    pub unit: &'static str,
+}
+
+/// What a joint carries out of the drawing without friction.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+#[non_exhaustive]
+pub enum CarriedQuantity {
+    /// A force along z, out of the drawing.
+    ForceZ,
+    /// A moment about the x axis, of a hinge.
+    MomentX,
+    /// A moment about the y axis, of a hinge.
+    MomentY,
+    /// A moment about the direction of sliding.
+    Roll,
+    /// A moment about the normal of a guide in the drawing.
+    Pitch,
+}
+
+impl CarriedQuantity {
+    /// "force along z on", "moment of roll on".
+    fn in_words(self) -> &'static str {
+        match self {
+            Self::ForceZ => "force along z on",
+            Self::MomentX => "moment about x on",
+            Self::MomentY => "moment about y on",
+            Self::Roll => "moment of roll on",
+            Self::Pitch => "moment of pitch on",
+        }
+    }
+
+    /// As JSON has it.
+    fn key(self) -> &'static str {
+        match self {
+            Self::ForceZ => "force_z",
+            Self::MomentX => "moment_x",
+            Self::MomentY => "moment_y",
+            Self::Roll => "roll",
+            Self::Pitch => "pitch",
+        }
+    }
+}
+
 /// Acceleration of a body, and what is left over in its balance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
@@ -774,6 +850,10 @@ pub struct Body {
     pub acceleration: [f64; 2],
     /// Angular acceleration (rad/s^2).
     pub angular_acceleration: f64,
+    /// Of a body that lifts off or tips out of the drawing: its acceleration along z (m/s^2), and its angular accelerations
+    /// about x and y (rad/s^2); absent of others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub out_of_plane: Option<[f64; 3]>,
     /// Left-over force of the recomputed balance (N).
     pub residual_force: f64,
     /// Left-over moment of the recomputed balance (N m).

@@ -594,6 +594,27 @@ fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<
             row(&hinge.name, "radius of its friction circle", length.number(friction.radius), &length);
         }
     }
+    let moments = solution.carried.iter().filter(|carried| carried.unit == "N m");
+    let moment_scale =
+        moments.map(|carried| carried.value.abs()).fold(force_scale * report.model.size, f64::max);
+    for carried in &solution.carried {
+        let unit = units.of(carried.unit);
+        let scale = if carried.unit == "N" { force_scale } else { moment_scale };
+        let what = format!("{} {}", carried.quantity.in_words(), carried.on);
+        row(&carried.name, &what, unit.against(carried.value, scale.max(carried.value.abs())), &unit);
+    }
+    for (body, [along_z, about_x, about_y]) in
+        solution.bodies.iter().filter_map(|body| Some((body, body.out_of_plane?)))
+    {
+        let [unit, angular] = ["m/s^2", "rad/s^2"].map(|si| units.of(si));
+        row(&body.name, "acceleration along z", unit.number(along_z), &unit);
+        row(
+            &body.name,
+            "angular acceleration about x and y",
+            pair([about_x, about_y], 0.0, &angular),
+            &angular,
+        );
+    }
     if !verbose {
         return rows;
     }

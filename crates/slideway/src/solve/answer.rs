@@ -14,7 +14,7 @@ use super::words::joint_mode;
 use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedOutputs, Tipping};
 use crate::fault::Faults;
-use crate::ids::{BodyId, ContactId, JointId};
+use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Opening, Reaction, gap_acceleration};
@@ -25,7 +25,7 @@ use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SharedLoad, SingularMode,
     SolutionSet, UndecidedPattern,
 };
-use crate::report::{self, Elasticity, Proof, SolveReport, SpeedChange, Status, Stopping};
+use crate::report::{self, CarriedQuantity, Elasticity, Proof, SolveReport, SpeedChange, Status, Stopping};
 use nalgebra::DVector;
 
 /// Solutions of the equations in which a guided slider would tip.
@@ -406,6 +406,7 @@ impl<'a> Answer<'a> {
             contacts: self.contacts(state, unknowns, &friction),
             joints: self.joint_modes(&state.signs),
             hinges: self.hinges(state, unknowns),
+            carried: self.carried(unknowns),
             bodies: self.bodies(unknowns, &residuals),
             coordinates: self.coordinates(state, unknowns),
             friction_exceeds_loads: self.friction_exceeds_loads(state),
@@ -532,6 +533,40 @@ impl<'a> Answer<'a> {
         joints.filter_map(one).collect()
     }
 
+    /// The accelerations out of the plane of a body that leaves it.
+    fn leaves_plane(&self, body: BodyId, unknowns: &DVector<f64>) -> Option<[f64; 3]> {
+        let (first, _) = self.mechanism.out_of_plane(Frame::Body(body))?;
+        let accelerations = [0, 1, 2].map(|axis| unknowns[first + axis] + 0.0);
+        accelerations.iter().any(|acceleration| *acceleration != 0.0).then_some(accelerations)
+    }
+
+    /// What joints carry out of the drawing without friction, on the body of theirs that is not ground.
+    fn carried(&self, unknowns: &DVector<f64>) -> Vec<report::Carried> {
+        let layout = self.influence.layout();
+        let one = |(index, reaction): (usize, &Reaction)| {
+            let Reaction::Carried(id, component) = *reaction else { return None };
+            let joint = &self.mechanism.joints[id.index()];
+            let [first, second] = joint.joined().frames;
+            let (on, sign) = if first.body().is_some() { (first, 1.0) } else { (second, -1.0) };
+            let quantity = match (&joint.kind, component) {
+                (_, 0) => CarriedQuantity::ForceZ,
+                (JointKind::Hinge(_), 1) => CarriedQuantity::MomentX,
+                (JointKind::Hinge(_), _) => CarriedQuantity::MomentY,
+                (JointKind::Slider(_), 1) => CarriedQuantity::Roll,
+                (JointKind::Slider(_), _) => CarriedQuantity::Pitch,
+            };
+            Some(report::Carried {
+                name: joint.name.to_string(),
+                on: self.mechanism.frame_name(on).to_owned(),
+                quantity,
+                // Adding zero turns -0 into 0.
+                value: sign * unknowns[layout.accelerations() + index] + 0.0,
+                unit: if component == 0 { "N" } else { "N m" },
+            })
+        };
+        layout.reactions().iter().enumerate().filter_map(one).collect()
+    }
+
     fn bodies(&self, unknowns: &DVector<f64>, residuals: &[Residual]) -> Vec<report::Body> {
         let one = |(index, residual): (usize, &Residual)| {
             let first = self.influence.layout().acceleration(BodyId(index));
@@ -539,6 +574,7 @@ impl<'a> Answer<'a> {
                 name: self.mechanism.bodies[index].name.to_string(),
                 acceleration: [unknowns[first], unknowns[first + 1]],
                 angular_acceleration: unknowns[first + 2],
+                out_of_plane: self.leaves_plane(BodyId(index), unknowns),
                 residual_force: residual.force,
                 residual_moment: residual.moment,
             }

@@ -7,7 +7,7 @@ use crate::configuration::{Configuration, ContactGeometry};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::{ContactFriction, HingeState};
 use crate::kinetics::{Layout, Reaction, Wrench, effort_forces, friction_forces};
-use crate::mechanism::{Attachment, BodyInSpace, JointKind, Mechanism, tilting};
+use crate::mechanism::{Attachment, JointKind, Mechanism, tilting};
 use nalgebra::{DVector, Vector2};
 
 /// What is left over in the balance of a body.
@@ -141,6 +141,7 @@ impl Balance<'_> {
         let inertia = properties.mass * acceleration;
         let mut sum = -inertia;
         let mut moment = -(centre.perp(&inertia) + properties.moment_of_inertia * self.unknowns[first + 2]);
+        moment += self.tilting_of(body).dot(&self.products_of(body));
         for wrench in forces.iter().filter(|wrench| wrench.frame == Frame::Body(body)) {
             sum += wrench.force;
             moment += wrench.place.perp(&wrench.force) + wrench.couple;
@@ -155,22 +156,44 @@ impl Balance<'_> {
 }
 
 impl Balance<'_> {
-    /// Sum of forces along z, and of moments about x and y through the origin without those of m a and of the products of
-    /// inertia, (S1); nothing in a planar model.
+    /// Sum of forces along z less m a_z, and of moments about x and y through the origin without those of m a and of the
+    /// moments and products of inertia, (S1); nothing in a planar model.
     fn out_of_plane(&self, body: BodyId, forces: &[Wrench], inertia: Vector2<f64>) -> [f64; 2] {
-        let Some(space) = &self.mechanism.space else { return [0.0; 2] };
-        let BodyInSpace { z, products, .. } = space.bodies[body.index()];
-        let products = self.configuration.direction(Frame::Body(body), products.into());
+        let Some((first, z)) = self.mechanism.out_of_plane(Frame::Body(body)) else { return [0.0; 2] };
+        let (products, tilting_of) = (self.products_of(body), self.tilting_of(body));
         let turning = self.unknowns[self.layout.acceleration(body) + 2];
         let spin = self.configuration.velocities[body.index()].angular.powi(2);
-        let mut along_z = 0.0;
+        let pose = &self.configuration.poses[body.index()];
+        let along = self.mechanism.bodies[body.index()].mass * self.unknowns[first];
+        let mut along_z = -along;
         let mut tilt = products * turning - Vector2::new(products.y, -products.x) * spin;
-        tilt -= tilting((Vector2::zeros(), z), (inertia, 0.0));
+        tilt -= tilting((pose.position, z), (inertia, along));
+        if let Some([about_x, about_y]) =
+            self.mechanism.space.as_ref().and_then(|all| all.bodies[body.index()].tilt)
+        {
+            let [x, y] = [Vector2::x(), Vector2::y()]
+                .map(|axis| self.configuration.direction(Frame::Body(body), axis));
+            tilt -= x * (about_x * x.dot(&tilting_of)) + y * (about_y * y.dot(&tilting_of));
+        }
         for wrench in forces.iter().filter(|wrench| wrench.frame == Frame::Body(body)) {
             along_z += wrench.along_z;
             tilt += tilting((wrench.place, wrench.z), (wrench.force, wrench.along_z)) + wrench.tilt;
         }
         [along_z.abs(), length(tilt)]
+    }
+
+    /// The products of inertia of a body in its pose.
+    fn products_of(&self, body: BodyId) -> Vector2<f64> {
+        let products =
+            self.mechanism.space.as_ref().map_or([0.0; 2], |space| space.bodies[body.index()].products);
+        self.configuration.direction(Frame::Body(body), products.into())
+    }
+
+    /// The accelerations of rotation of a body about x and y, which it has once contacts lift off.
+    fn tilting_of(&self, body: BodyId) -> Vector2<f64> {
+        let first = self.mechanism.out_of_plane(Frame::Body(body)).map(|(first, _)| first + 1);
+        first
+            .map_or_else(Vector2::zeros, |first| Vector2::new(self.unknowns[first], self.unknowns[first + 1]))
     }
 }
 

@@ -49,7 +49,11 @@ impl Sliding {
         let signs = sliding_signs(mechanism, configuration);
         let still = (0..signs.len()).filter(|&k| signs[k] == 0.0 && mechanism.contacts[k].may_hold());
         let still: Vec<ContactId> = still.map(ContactId).collect();
-        if still.is_empty() || may_lift_off(mechanism, &still) {
+        if still.is_empty() {
+            return Ok(Self { signs, standing: still });
+        }
+        if may_lift_off(mechanism, &still) {
+            mechanism.check_planar("the friction of contacts that stand still")?;
             return Ok(Self { signs, standing: still });
         }
         let joints: Vec<JointId> = still.iter().map(|id| mechanism.contacts[id.index()].joint).collect();

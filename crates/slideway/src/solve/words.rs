@@ -6,7 +6,7 @@
 use crate::ids::ContactId;
 use crate::mechanism::{Contact, Mechanism, Slider};
 use crate::model::SliderKind;
-use crate::report::OnFace;
+use crate::report::{ModeInWords, OnFace};
 use nalgebra::Vector2;
 
 /// The contact mode of a sliding joint.
@@ -38,20 +38,29 @@ pub(crate) fn joint_mode(
     slider: &Slider,
     tangent: Vector2<f64>,
     signs: &[i8],
-) -> (Option<OnFace>, String) {
+) -> ModeInWords {
+    if mechanism.space.is_some() && slider.kind == SliderKind::Block && !mechanism.may_lift_off(slider) {
+        return in_cross_section(mechanism, slider, tangent, signs);
+    }
     if slider.contacts.iter().any(|contact| mechanism.contacts[contact.index()].opens) {
         let (face, place) = GuideInWords { tangent, around: slider.around }.on_face(signs);
-        return (Some(face), place);
+        return ModeInWords { face: Some(face), place, line: None };
     }
-    (None, on_guide(mechanism, slider, tangent, signs))
+    ModeInWords { place: on_guide(mechanism, slider, tangent, signs), ..ModeInWords::default() }
 }
 
 /// A contact with the sign of its normal force.
 type Pressed<'a> = (&'a Contact, i8);
 
 /// The contact mode in space: the contacts whose normals lie in the drawing as in the plane, then on which of the others the
-/// block rests, from which it hangs, and how it is turned where it does both.
-fn in_cross_section(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
+/// block rests, from which it hangs, and how it is turned where it does both; where it lifts off, and about which line it tips
+/// then.
+fn in_cross_section(
+    mechanism: &Mechanism,
+    slider: &Slider,
+    tangent: Vector2<f64>,
+    signs: &[i8],
+) -> ModeInWords {
     let guide = GuideInWords { tangent, around: slider.around };
     let contacts = slider.contacts.iter().map(|contact| &mechanism.contacts[contact.index()]);
     let all: Vec<Pressed<'_>> = contacts.zip(signs.iter().copied()).collect();
@@ -60,23 +69,27 @@ fn in_cross_section(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64
     let mut words: Vec<String> = match upright.as_slice() {
         [] => Vec::new(),
         [(_, 0), (_, 0)] if leaning.iter().any(|(_, sign)| *sign != 0) => Vec::new(),
-        [(_, front), (_, rear)] => vec![mode_in_words(slider, tangent, &[*front, *rear])],
+        [(first, front), (second, rear)] if !first.opens && !second.opens => {
+            vec![mode_in_words(slider, tangent, &[*front, *rear])]
+        }
         more => {
-            let place = |sign: i8| match sign {
+            let place = |(contact, sign): &Pressed<'_>| match sign {
                 0 => "without force".to_owned(),
-                sign => format!("on the {} face", guide.face(sign)),
+                -1 if contact.opens => "off its face".to_owned(),
+                sign => format!("on the {} face", guide.face(*sign)),
             };
-            more.iter()
-                .map(|(contact, sign)| format!("{} {}", contact.place_in_joint(), place(*sign)))
-                .collect()
+            more.iter().map(|pressed| format!("{} {}", pressed.0.place_in_joint(), place(pressed))).collect()
         }
     };
-    let [rests, hangs] = [1, -1].map(|side| {
-        leaning.iter().filter(|(_, sign)| *sign == side).map(|(contact, _)| *contact).collect::<Vec<_>>()
+    let [rests, hangs, lifts] = [(1, false), (-1, false), (-1, true)].map(|(side, opens)| {
+        let does = |(contact, sign): &&Pressed<'_>| *sign == side && (side == 1 || contact.opens == opens);
+        leaning.iter().filter(does).map(|(contact, _)| *contact).collect::<Vec<_>>()
     });
-    for (verb, contacts) in [("rests on", &rests), ("hangs from", &hangs)] {
-        let names: Vec<&str> = contacts.iter().map(|contact| contact.place_in_joint()).collect();
-        words.extend((!names.is_empty()).then(|| format!("{verb} {}", names.join(", "))));
+    let named = |contacts: &[&Contact], between: &str| {
+        contacts.iter().map(|contact| contact.place_in_joint()).collect::<Vec<_>>().join(between)
+    };
+    for (verb, contacts) in [("rests on", &rests), ("hangs from", &hangs), ("lifts off at", &lifts)] {
+        words.extend((!contacts.is_empty()).then(|| format!("{verb} {}", named(contacts, ", "))));
     }
     let differ = |distance: &dyn Fn(&Contact) -> f64| {
         let mean = |contacts: &[&Contact]| {
@@ -88,14 +101,16 @@ fn in_cross_section(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64
         words.extend(differ(&|contact| contact.offset).then(|| "pitched".to_owned()));
         words.extend(differ(&|contact| contact.aside[0]).then(|| "rolled".to_owned()));
     }
-    words.join(", ")
+    let mut opening = slider.contacts.iter().zip(signs);
+    let opens = opening.any(|(contact, sign)| *sign == -1 && mechanism.contacts[contact.index()].opens);
+    let holds = !rests.is_empty() || !hangs.is_empty();
+    let face = opens.then_some(if holds { OnFace::Tips } else { OnFace::Opens });
+    let line = (rests.len() == 2 && hangs.is_empty()).then(|| named(&rests, " - "));
+    ModeInWords { face, place: words.join(", "), line }
 }
 
 fn on_guide(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
     let guide = GuideInWords { tangent, around: slider.around };
-    if mechanism.space.is_some() && slider.kind == SliderKind::Block {
-        return in_cross_section(mechanism, slider, tangent, signs);
-    }
     if !slider.contacts.iter().any(|contact| mechanism.excess.shares(*contact)) {
         return mode_in_words(slider, tangent, signs);
     }

@@ -325,7 +325,7 @@ fn with_load(model: &Model, options: &HoldOptions) -> Result<HoldOptions, Faults
 /// Several loads, or none, of which one would have to be named; values that the model must not have.
 pub fn only_load(model: &Model) -> Result<String, Faults> {
     let mechanism = Mechanism::new(model)?;
-    let weights = (mechanism.gravity.norm() > 0.0).then(|| setup::GRAVITY.to_owned());
+    let weights = (mechanism.free_fall() > 0.0).then(|| setup::GRAVITY.to_owned());
     let loads = mechanism.loads.iter().map(|load| load.name.to_string());
     let known: Vec<String> = loads.chain(weights).collect();
     match known.as_slice() {
@@ -485,7 +485,11 @@ fn drives(mechanism: &Mechanism, options: &HoldOptions, holding: bool) -> Vec<St
 /// Motions that the joints leave once all lifts off that may, and that have no kinetic energy, unless drives hold them.
 fn undriven_without_inertia(setup: &Setup) -> Vec<String> {
     let motions = held_motions(setup, &setup.one_sided());
-    motions_without_inertia(&setup.mechanism, &setup.configuration, &motions, &setup.loads())
+    // In the plane: where bodies may leave it, rest is not asked for.
+    let in_plane = 3 * setup.mechanism.bodies.len();
+    let (motions, loads) =
+        (motions.rows(0, in_plane).into_owned(), setup.loads().rows(0, in_plane).into_owned());
+    motions_without_inertia(&setup.mechanism, &setup.configuration, &motions, &loads)
 }
 
 /// The motions that joints and drives leave, one in each column, with these contacts open.

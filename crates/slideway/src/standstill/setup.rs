@@ -13,7 +13,7 @@ use crate::pattern::{GuidedCouple, Law};
 use crate::progress::Work;
 use crate::sharing::check_assembly;
 use crate::sharing::{is_rigid, shared_load, stress_force};
-use nalgebra::{DMatrix, DVector, DVectorView, RowDVector, Vector2};
+use nalgebra::{DMatrix, DVector, DVectorView, RowDVector};
 
 /// Units of the linear programs.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +78,10 @@ impl Setup {
     /// The end of the work; what makes no sense in the model or its position, an unknown load, a load that is zero.
     pub(super) fn new(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
-        original.check_planar("rest")?;
+        if original.has_one_sided() {
+            // What tips out of the drawing slides otherwise at each of its contacts.
+            original.check_planar("rest on contacts that may lift off")?;
+        }
         original.check_size()?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();
@@ -93,7 +96,7 @@ impl Setup {
             match named(&original, name)? {
                 Named::Load => mechanism.loads.retain(|load| *load.name != **name),
                 Named::Drive => mechanism.drives.retain(|drive| *drive.name != **name),
-                Named::Gravity => mechanism.gravity = Vector2::zeros(),
+                Named::Gravity => mechanism.put_out_gravity(),
             }
         }
         let assembled = Assembled::at_rest(&mechanism, &configuration)?;
@@ -110,7 +113,7 @@ impl Setup {
     /// misalignment are nothing then; rigid ones keep them.
     pub(super) fn alone(&self, forces: DVector<f64>) -> Self {
         let mut alone = Self { load: None, ..self.clone() };
-        let force = greatest_force(&forces, alone.units.length);
+        let force = greatest_force(&alone.mechanism, &forces);
         alone.units.force = if force > 0.0 { force } else { 1.0 };
         alone.given = forces;
         for contact in &mut alone.mechanism.contacts {
@@ -190,11 +193,14 @@ impl Setup {
     /// The motions that the joints leave with these contacts open, one in each column: (x, y, angle) of every body in m and
     /// rad.
     pub(super) fn free_motions(&self, open: &[usize]) -> DMatrix<f64> {
-        if open.is_empty() {
-            return free_motions(&self.mechanism, &self.configuration);
-        }
         let (all, size) = (self.equations_of_motion(), self.mechanism.size);
-        let scale = DVector::from_fn(all, |column, _| if column % 3 == 2 { 1.0 } else { size });
+        if open.is_empty() {
+            // Out of the plane nothing moves while all is closed.
+            let motions = free_motions(&self.mechanism, &self.configuration);
+            return motions.resize_vertically(all, 0.0);
+        }
+        let is_rotation = |column: usize| self.mechanism.is_rotation(column);
+        let scale = DVector::from_fn(all, |column, _| if is_rotation(column) { 1.0 } else { size });
         let row = |(index, reaction): (usize, &Reaction)| match reaction {
             Reaction::Normal(contact) if open.contains(&contact.index()) => None,
             Reaction::Normal(contact) => Some(self.gap_row(contact.index())),
@@ -222,9 +228,9 @@ impl Setup {
         row.columns(0, self.equations_of_motion()).into_owned()
     }
 
-    /// Number of equations of motion: three for each body.
+    /// Number of equations of motion: three for each body, six in space.
     pub(super) fn equations_of_motion(&self) -> usize {
-        3 * self.mechanism.bodies.len()
+        self.mechanism.accelerations()
     }
 }
 
@@ -278,7 +284,7 @@ fn at_rest(mut mechanism: Mechanism) -> Mechanism {
 }
 
 fn forces(mechanism: &Mechanism, assembled: &Assembled<f64>) -> DVector<f64> {
-    assembled.load.rows(0, 3 * mechanism.bodies.len()).into_owned()
+    assembled.load.rows(0, mechanism.accelerations()).into_owned()
 }
 
 /// The name by which all weights together are a load.
@@ -313,7 +319,7 @@ fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> R
     let what = named(mechanism, name)?;
     let mut alone = mechanism.clone();
     if what != Named::Gravity {
-        alone.gravity = Vector2::zeros();
+        alone.put_out_gravity();
     }
     alone.loads.retain(|load| *load.name == *name);
     alone.drives.retain(|drive| *drive.name == *name);
@@ -321,7 +327,7 @@ fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> R
     let drive = alone.drives.first().filter(|_| what == Named::Drive);
     let (forces, nominal, unit) = if let Some(drive) = drive {
         let column = assembled.layout.effort(DriveId(0));
-        let forces = -assembled.matrix.view((0, column), (3 * alone.bodies.len(), 1)).column(0).into_owned();
+        let forces = -assembled.matrix.view((0, column), (alone.accelerations(), 1)).column(0).into_owned();
         let unit = if matches!(drive.effort, Effort::Force { .. }) { "N" } else { "N m" };
         (forces, 0.0, unit)
     } else {
@@ -336,7 +342,7 @@ fn varied(mechanism: &Mechanism, configuration: &Configuration, name: &str) -> R
 fn unknown(mechanism: &Mechanism, name: &str) -> Faults {
     let loads = mechanism.loads.iter().map(|load| &*load.name);
     let drives = mechanism.drives.iter().map(|drive| &*drive.name);
-    let has_weight = mechanism.gravity != Vector2::zeros();
+    let has_weight = mechanism.free_fall() > 0.0;
     let known = loads.chain(drives).chain(has_weight.then_some(GRAVITY));
     let kind = FaultKind::UnknownName {
         what: "load",
@@ -363,9 +369,9 @@ fn sliders(mechanism: &Mechanism, assembled: &Assembled<f64>) -> Vec<SlidingJoin
 /// Greatest force of the state, size of the mechanism, and the force divided by the greatest mass.
 fn units(mechanism: &Mechanism, given: &DVector<f64>, load: Option<&VariedLoad>) -> Units {
     let length = mechanism.size;
-    let mut force = greatest_force(given, length);
+    let mut force = greatest_force(mechanism, given);
     if let Some(load) = load {
-        let whole = greatest_force(&load.forces, length);
+        let whole = greatest_force(mechanism, &load.forces);
         // Of a drive only the direction is known.
         if load.nominal != 0.0 || force == 0.0 {
             force = force.max(whole);
@@ -379,8 +385,10 @@ fn units(mechanism: &Mechanism, given: &DVector<f64>, load: Option<&VariedLoad>)
     Units { force, length, acceleration: if mass > 0.0 { force / mass } else { 1.0 } }
 }
 
-/// Greatest force among (x, y, moment / length) of every body.
-pub(super) fn greatest_force(forces: &DVector<f64>, length: f64) -> f64 {
-    let in_newtons = |(index, value): (usize, &f64)| if index % 3 == 2 { value / length } else { *value };
+/// Greatest force among the forces, and the moments divided by the size of the mechanism, of every body.
+pub(super) fn greatest_force(mechanism: &Mechanism, forces: &DVector<f64>) -> f64 {
+    let in_newtons = |(index, value): (usize, &f64)| {
+        if mechanism.is_rotation(index) { value / mechanism.size } else { *value }
+    };
     forces.iter().enumerate().map(in_newtons).map(f64::abs).fold(0.0, f64::max)
 }

@@ -1,8 +1,8 @@
 //! Hinges and the three sliding joints.
 
 use super::super::file::{
-    CarriedBy, Closed, ContactTable, End, Entry, Fit, HingeCarries, PadTable, PreloadLine, SliderCarries,
-    SliderTable, StopTable,
+    CarriedBy, Closed, ContactTable, End, Entry, Fit, HingeCarries, PadTable, PreloadLine, RestsOnTable,
+    SliderCarries, SliderTable, StopTable,
 };
 use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
@@ -209,10 +209,83 @@ impl Reader<'_> {
             ];
             let normal = read(&table.normal, of("normal", Dimension::ANGLE));
             let height = read(&table.height, of("height", Dimension::LENGTH).not_negative());
-            let rest = self.contact(friction, contact, name, span);
+            let mut rest = self.contact(friction, contact, name, span);
+            if table.one_sided == Some(true) {
+                self.make_one_sided(&mut rest, span);
+            }
             contacts.push(Contact { offset, aside, normal, height, ..rest });
         }
+        if let Some(rests_on) = &joint.rests_on {
+            self.corners(rests_on, all, (&mut contacts, name, span));
+        }
         contacts
+    }
+
+    /// The corners by which a block rests on its guide, behind its other contacts.
+    fn corners(
+        &mut self,
+        written: &RestsOnTable,
+        all: ReadFriction,
+        (contacts, name, span): (&mut Vec<Contact>, &str, &Span),
+    ) {
+        let of =
+            |what: &str| Wanted::constant(format!("the {what} of the corners of {name}"), Dimension::LENGTH);
+        let width = self.formula(&written.width, of("width").positive());
+        let length = written.length.as_ref().map(|length| self.formula(length, of("length").positive()));
+        let z = written.z.as_ref().map(|z| self.formula(z, of("distance along z")));
+        let [front, rear, left, right, middle] = [0.5, -0.5, 0.5, -0.5, 0.0];
+        let ends: &[(&str, [f64; 2])] = match written.corners {
+            None | Some(4) => &[
+                ("front_left", [front, left]),
+                ("front_right", [front, right]),
+                ("rear_left", [rear, left]),
+                ("rear_right", [rear, right]),
+            ],
+            Some(3) => &[
+                ("front_left", [front, left]),
+                ("front_right", [front, right]),
+                ("rear_middle", [rear, middle]),
+            ],
+            Some(other) => {
+                self.fault(FaultKind::Corners { joint: name.to_owned(), corners: other }, span);
+                return;
+            }
+        };
+        let table = ContactTable {
+            mu: written.mu.clone(),
+            mu_static: written.mu_static.clone(),
+            stiffness: written.stiffness.clone(),
+            ..ContactTable::default()
+        };
+        let friction = self.friction(&table, false, &format!("the corners of {name}"), span).or(all);
+        for &(end, corner) in ends {
+            let contact = format!("{name}.{end}");
+            if contacts.iter().any(|other| *other.name == *contact) {
+                self.fault(FaultKind::SharedName { name: contact.clone() }, span);
+            }
+            let mut rest = self.contact(friction, contact, name, span);
+            if written.one_sided == Some(true) {
+                self.make_one_sided(&mut rest, span);
+            }
+            let aside = [Some(width), z];
+            contacts.push(Contact { offset: length, aside, corner: Some(corner), ..rest });
+        }
+    }
+
+    /// Takes the face away that a contact presses where its normal force is negative.
+    fn make_one_sided(&mut self, contact: &mut Contact, span: &Span) {
+        let needs_two = [
+            ("play", contact.play.is_some()),
+            ("preload", contact.preload != [None; 2]),
+            ("misalignment", contact.misalignment.is_some()),
+        ];
+        for (second, _) in needs_two.into_iter().filter(|(_, is_there)| *is_there) {
+            let owner = contact.name.to_string();
+            self.fault(FaultKind::Both { owner, first: "one_sided = true", second }, span);
+        }
+        // Without a second face there is no friction at it.
+        (contact.opens, contact.mu[1], contact.mu_static[1]) = (true, self.zero, self.zero);
+        contact.one_sided = true;
     }
 
     /// Makes contacts that may lift off of these, leaves those that touch, and returns the others.
@@ -404,6 +477,7 @@ impl Reader<'_> {
             preload_line: friction.preload_line.unwrap_or(PreloadLine::Pressed),
             offset: None,
             aside: [None; 2],
+            corner: None,
             normal: None,
             height: None,
             stiffness: friction.stiffness,
@@ -413,6 +487,7 @@ impl Reader<'_> {
             pad: friction.pad,
             face: None,
             opens: false,
+            one_sided: false,
         }
     }
 

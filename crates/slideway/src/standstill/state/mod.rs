@@ -322,13 +322,18 @@ impl<'s> State<'s> {
 
     fn row_scale(&self) -> Vec<f64> {
         let units = &self.setup.units;
-        let one = |row: usize| if row % 3 == 2 { units.force * units.length } else { units.force };
+        let is_rotation = |row: usize| self.setup.mechanism.is_rotation(row);
+        let one = |row: usize| if is_rotation(row) { units.force * units.length } else { units.force };
         (0..self.setup.equations_of_motion()).map(|row| 1.0 / one(row)).collect()
     }
 
     fn acceleration_unit(&self, column: usize) -> f64 {
         let units = &self.setup.units;
-        if column % 3 == 2 { units.acceleration / units.length } else { units.acceleration }
+        if self.setup.mechanism.is_rotation(column) {
+            units.acceleration / units.length
+        } else {
+            units.acceleration
+        }
     }
 
     /// Unit of a reaction or effort: N, or N m for a couple or torque.
@@ -337,7 +342,7 @@ impl<'s> State<'s> {
         let index = place - setup.equations_of_motion();
         let reactions = setup.assembled.layout.reactions();
         let is_couple = match reactions.get(index) {
-            Some(reaction) => matches!(reaction, Reaction::Couple(_)),
+            Some(reaction) => matches!(reaction, Reaction::Couple(_) | Reaction::Carried(_, 1 | 2)),
             None => matches!(setup.mechanism.drives[index - reactions.len()].effort, Effort::Torque { .. }),
         };
         if is_couple { units.force * units.length } else { units.force }
@@ -346,8 +351,11 @@ impl<'s> State<'s> {
     /// Unit of the load factor.
     pub(super) fn factor_unit(&self) -> f64 {
         let units = &self.setup.units;
-        let load =
-            self.setup.load.as_ref().map(|load| super::setup::greatest_force(&load.forces, units.length));
+        let load = self
+            .setup
+            .load
+            .as_ref()
+            .map(|load| super::setup::greatest_force(&self.setup.mechanism, &load.forces));
         load.filter(|load| *load > 0.0).map_or(1.0, |load| units.force / load)
     }
 
