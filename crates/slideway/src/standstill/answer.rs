@@ -227,8 +227,26 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
             // What acts as it was named comes before what is reversed.
             let (named, reversed): (Vec<&Range>, Vec<&Range>) =
                 ranges.iter().partition(|range| range.greatest.is_none_or(|greatest| greatest > 0.0));
-            let all: Vec<String> = named.into_iter().chain(reversed).map(one).collect();
+            let with_force = |range: &Range| one(range) + &in_newtons(report, load, range);
+            let all: Vec<String> = named.into_iter().chain(reversed).map(with_force).collect();
             format!("It {holds} {}.", all.join(", or "))
+        }
+    }
+}
+
+/// The forces at the ends of a range of factors: " (90 N)", " (20 to 90 N)". Empty of a drive, and where it has no end.
+fn in_newtons(report: &HoldReport, load: &LoadReport, range: &Range) -> String {
+    let Some(force) = load.force else { return String::new() };
+    let unit = report.units.of("N");
+    let ends = [range.least, range.greatest].map(|end| end.filter(|end| *end != 0.0).map(|end| end * force));
+    match ends {
+        [Some(least), Some(greatest)] if brief(least.abs()) != brief(greatest.abs()) => {
+            format!(" ({} to {})", unit.brief_number(least), unit.brief(greatest))
+        }
+        [None, None] => String::new(),
+        [least, greatest] => {
+            let end = greatest.or(least).unwrap_or_default();
+            format!(" ({})", unit.brief(end.abs()))
         }
     }
 }
@@ -298,7 +316,7 @@ fn never_locks(
     match (self_locking, undecided) {
         (true, 0) => format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load."),
         (true, _) => format!("Self-locking: it holds any `{name}`. From which {varied} on was not decided."),
-        (false, 0) => format!("Not self-locking: no {varied} makes it so."),
+        (false, 0) => format!("Not self-locking at any {varied}."),
         (false, _) => format!("Whether any {varied} makes it self-locking was not decided."),
     }
 }
