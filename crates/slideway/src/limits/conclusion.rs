@@ -299,7 +299,7 @@ fn both_directions(directions: [&Direction; 2]) -> Vec<Piece> {
             (Some(without), None) => {
                 format!("as in the model {without}; in the opposite direction it moves")
             }
-            (Some(one), Some(other)) if one == other => format!("{one} in both directions"),
+            (Some(one), Some(other)) if one == other => format!("in both directions {one}"),
             (Some(one), Some(other)) => format!("{one}; in the opposite direction {other}"),
         };
         Some(Piece {

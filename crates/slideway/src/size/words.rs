@@ -156,7 +156,8 @@ impl Words<'_> {
         let wedged = match report.wedged {
             None => String::new(),
             Some(margin) if margin >= 1.0 - SAME => {
-                format!("; wedged by a knock it holds with a safety factor of {}", brief(margin))
+                let how = if report.gently { "let down gently" } else { "wedged by a knock" };
+                format!("; {how} it holds with a safety factor of {}", brief(margin))
             }
             Some(margin) => {
                 let growth = brief(margin.recip());
@@ -178,7 +179,10 @@ impl Words<'_> {
                 format!("its safety factor is {factor}, {enough}")
             }
             (MarginKind::Locking, true) => {
-                format!("its safety factor is {factor} (beyond, {}), {enough}", it_tips(&report.tips))
+                format!(
+                    "its safety factor is {factor} against tipping ({}), {enough}",
+                    report.tips.join(" and ")
+                )
             }
             (MarginKind::Locking, false) => {
                 let jams = || without_solution(report.tipping.as_ref());

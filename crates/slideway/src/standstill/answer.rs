@@ -54,7 +54,7 @@ fn verdict(report: &HoldReport) -> String {
         }
         HoldVerdict::HoldsOrSlips => {
             let may = "It may hold, or it may start to slide: do not rely on it.";
-            format!("{may}{}", if falls_freely(report) { FALLS_FREELY } else { "" })
+            format!("{may}{}", if report.falls_freely() { FALLS_FREELY } else { "" })
         }
         HoldVerdict::Moves => moves(report),
         HoldVerdict::Neither => {
@@ -105,20 +105,22 @@ const FALLS_FREELY: &str = " While it slides nothing presses its guides; let dow
 /// Forces up to this part of the greatest at rest press nothing.
 const NOTHING: f64 = 1e-12;
 
-/// Whether in every motion that begins no contact is pressed, and at rest all forces have bounds: they grow with the loads then, so
-/// that it holds while the loads are let on little by little.
-fn falls_freely(report: &HoldReport) -> bool {
-    let is_zero = |range: &Range| {
-        let ends = [range.least, range.greatest];
-        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.force))
-    };
-    let nothing_presses = |release: &Release| {
-        let contacts = &release.reactions.contacts;
-        !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
-    };
-    let rest = report.at_rest.as_ref();
-    let is_wedged = report.sharing.is_some() || rest.is_none_or(|rest| !rest.wedging.is_empty());
-    !is_wedged && !report.releases.is_empty() && report.releases.iter().all(nothing_presses)
+impl HoldReport {
+    /// Whether in every motion that begins no contact is pressed, and at rest all forces have bounds: they grow with the loads
+    /// then, so that it holds while the loads are let on little by little.
+    pub(crate) fn falls_freely(&self) -> bool {
+        let is_zero = |range: &Range| {
+            let ends = [range.least, range.greatest];
+            ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * self.force))
+        };
+        let nothing_presses = |release: &Release| {
+            let contacts = &release.reactions.contacts;
+            !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
+        };
+        let rest = self.at_rest.as_ref();
+        let is_wedged = self.sharing.is_some() || rest.is_none_or(|rest| !rest.wedging.is_empty());
+        !is_wedged && !self.releases.is_empty() && self.releases.iter().all(nothing_presses)
+    }
 }
 
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."

@@ -681,3 +681,14 @@ fn planar_mechanisms_in_space_have_the_same_forces() {
     }
     assert!(compared.len() >= 8, "{compared:?}");
 }
+
+/// A key without friction carries nothing: both of its sides are one, and the friction of the others decides. Friction does no work
+/// that changes this: the verdict is that of the pressed key.
+#[test]
+fn what_carries_nothing_without_friction_leaves_stability_as_it_is() {
+    let verdict = |text: &str| report_on(text).solutions[0].attainability.clone();
+    let (free, pressed) = (verdict(GUIDE), verdict(&GUIDE.replace("twist = 0 ", "twist = 0.3 ")));
+    assert_eq!((free.verdict, free.reason), (pressed.verdict, pressed.reason));
+    let rough = verdict(&GUIDE.replace("\"90 deg\", mu = 0 }", "\"90 deg\" }"));
+    assert_eq!(rough.reason.as_deref(), Some("nothing presses guide.key"));
+}
