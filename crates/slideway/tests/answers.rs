@@ -53,7 +53,7 @@ fn drive_answers() {
         ),
         (
             driven("wedge", &[]),
-            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards, friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards, it would tip (floor) from mu = 4 (26.67 times this friction), which only a block slider can show.",
+            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards, friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards, from mu = 0.8391 (5.594 times this friction) other states are possible. Backwards, it would tip (floor) from mu = 4 (26.67 times this friction), which only a block slider can show.",
         ),
         (
             driven("stick-slip", &[]),
@@ -85,8 +85,8 @@ fn a_load_that_is_held_by_itself_alone_is_not_called_self_locking() {
     let boom = held("telescopic-boom", &[], Some("W"));
     assert!(boom.starts_with("It does not hold") && !boom.contains("elf-locking"), "{boom}");
     assert!(
-        boom.contains(" times `W` or more, or reversed, ")
-            && boom.contains(" times it or more. By itself `W` is held, "),
+        boom.contains(" times `W` or more (330.1 N), or reversed, ")
+            && boom.contains(" times it or more (1952 N). By itself `W` is held, "),
         "{boom}"
     );
 }
