@@ -64,7 +64,7 @@ impl Input {
     /// All faults of both; the warnings if they are to be errors.
     pub(crate) fn model(&self) -> Result<Model, Failure> {
         let model = self.model_without_warnings()?;
-        let mut all = warnings(&model);
+        let mut all = self.doubts(&model);
         all.append(ranges_at_middle(&model));
         self.warn(all)?;
         Ok(model)
@@ -79,7 +79,7 @@ impl Input {
         let model = self.model_without_warnings()?;
         let mut all = ranges_at_middle(&model);
         let concerns_rest = |fault: &&Fault| fault.kind != FaultKind::Doubt(Doubt::NothingPresses);
-        all.extend(warnings(&model).sorted().into_iter().filter(concerns_rest).cloned());
+        all.extend(self.doubts(&model).sorted().into_iter().filter(concerns_rest).cloned());
         self.warn(all)?;
         Ok(model)
     }
@@ -91,8 +91,23 @@ impl Input {
     /// As [`Input::model`].
     pub(crate) fn model_within_bounds(&self) -> Result<Model, Failure> {
         let model = self.model_without_warnings()?;
-        self.warn(warnings(&model))?;
+        self.warn(self.doubts(&model))?;
         Ok(model)
+    }
+
+    /// The warnings of a question; what the drawing alone leaves in doubt is for `check`, unless warnings are errors.
+    fn doubts(&self, model: &Model) -> Faults {
+        let concerns_drawing =
+            |fault: &Fault| matches!(&fault.kind, FaultKind::Doubt(doubt) if doubt.concerns_drawing());
+        let mut found = Faults::default();
+        found.extend(
+            warnings(model)
+                .sorted()
+                .into_iter()
+                .filter(|&one| self.strict || !concerns_drawing(one))
+                .cloned(),
+        );
+        found
     }
 
     /// A quantity that is to be varied in the model, with its warnings likewise.

@@ -94,6 +94,15 @@ pub struct Faults {
 }
 
 impl Faults {
+    /// Those of a place among which a quantity of a dimension is wanted propose units of that dimension.
+    pub(crate) fn propose_units(&mut self, wanted: impl Fn(&Place) -> Option<Dimension>) {
+        for fault in &mut self.list {
+            if let (FaultKind::Expression(kind), Some(place)) = (&mut fault.kind, &fault.place) {
+                wanted(place).into_iter().for_each(|dimension| kind.propose_units(dimension));
+            }
+        }
+    }
+
     /// Adds one.
     pub fn push(&mut self, fault: Fault) {
         self.list.push(fault);
@@ -727,7 +736,7 @@ impl FaultKind {
     fn hint_of_face(&self, face: &dyn Face) -> Option<String> {
         Some(match self {
             Self::InSpace { .. } => format!(
-                "ask `{}`, `limits`, `drive`, `size`, `sweep` or `map` at instants of the motion",
+                "ask `{}`, `limits`, `drive`, `size`, `sweep` or `map`: they take it in motion, at its position and speed",
                 face.question("solve")
             ),
             Self::SharedLoad { .. } => format!(
@@ -822,6 +831,9 @@ impl FaultKind {
             Self::NotUtf8 { .. } => Some("save it as UTF-8"),
             Self::MissingKey { key, .. } if key == "mu" => {
                 Some("write `mu = 0` for a contact without friction")
+            }
+            Self::MissingKey { key, table } if key == "between" && table.starts_with("joints") => {
+                Some("name the two points that it joins, as in `between = [\"ground.A\", \"crank.A\"]`")
             }
             Self::WrongDimension { wanted, found }
                 if found.times(Dimension::ACCELERATION) == Some(*wanted) =>

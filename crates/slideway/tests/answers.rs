@@ -53,15 +53,15 @@ fn drive_answers() {
         ),
         (
             driven("wedge", &[]),
-            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards, friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards, floor would tip from mu = 4 (26.67 times this friction); model it as a block slider to go on.",
+            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards, friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards, from mu = 0.8391 (5.594 times this friction) other states are possible. Backwards, it would tip (floor) from mu = 4 (26.67 times this friction), which only a block slider can show.",
         ),
         (
             driven("stick-slip", &[]),
-            "motor needs 2.453 N, all of it against friction. sole would tip from mu = 1.2 (4.8 times this friction); model it as a block slider to go on. Backwards, motor needs -2.453 N, all of it against friction. Backwards, sole would tip from mu = 1.2 (4.8 times this friction).",
+            "motor needs 2.453 N, all of it against friction. It would tip (sole) from mu = 1.2 (4.8 times this friction), which only a block slider can show. Backwards, motor needs -2.453 N, all of it against friction. Backwards, it would tip (sole) from mu = 1.2 (4.8 times this friction).",
         ),
         (
             driven("bell-crank", &[]),
-            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. It does not jam up to at least a million times this friction. Backwards, push needs 0.5549 kN (0.625 kN without friction) to brake the load: efficiency 88.79 %. Backwards, it does not jam up to at least a million times this friction.",
+            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. It does not jam even with a million times this friction. Backwards, push needs 0.5549 kN (0.625 kN without friction) to brake the load: efficiency 88.79 %. Backwards, it does not jam even with a million times this friction.",
         ),
         (
             driven(EQUAL_PLAY, &[]),
@@ -69,7 +69,7 @@ fn drive_answers() {
         ),
         (
             driven(TIPPING_PRESS, &[("mu", "1.3")]),
-            "bed tips; model it as a block slider to see whether it still moves. It does not tip below mu = 1.25. Backwards, bed tips, too. Backwards, it does not tip below mu = 1.25.",
+            "It tips (bed), which only a block slider can show. It does not tip below mu = 1.25. Backwards, it tips (bed), too. Backwards, it does not tip below mu = 1.25.",
         ),
         (
             driven(&pushed, &[("P", "0 N")]),
@@ -85,8 +85,8 @@ fn a_load_that_is_held_by_itself_alone_is_not_called_self_locking() {
     let boom = held("telescopic-boom", &[], Some("W"));
     assert!(boom.starts_with("It does not hold") && !boom.contains("elf-locking"), "{boom}");
     assert!(
-        boom.contains(" times `W` or more, or reversed, ")
-            && boom.contains(" times it or more. By itself `W` is held, "),
+        boom.contains(" times `W` or more (330.1 N), or reversed, ")
+            && boom.contains(" times it or more (1952 N). By itself `W` is held, "),
         "{boom}"
     );
 }
@@ -184,7 +184,7 @@ fn hold_answers() {
         ),
         (
             held("drawer", &[], Some("resistance")),
-            "It does not hold: it starts to slide (x: -4 m/s^2). It holds no `resistance`, however small. Not self-locking: no static friction makes it so.",
+            "It does not hold: it starts to slide (x: -4 m/s^2). It holds no `resistance`, however small. Not self-locking at any static friction.",
         ),
         (
             held(SASH, &[], Some("gravity")),
@@ -323,7 +323,7 @@ fn simulate_answers() {
         ),
         (
             simulated(&model(TIPPING_PRESS, &[("mu", "1.3")]), &options(0.1)),
-            "It ends at 0 s: bed tips; model it as a block slider to go on.",
+            "It ends at 0 s: it tips (bed), which only a block slider can show.",
         ),
     ];
     assert_answers(&told);

@@ -442,7 +442,7 @@ fn of_simulate(outcome: Outcome) -> First {
         Gap => Line(simulated(GUIDED_GAP, &[], 0.01), "It is still moving at 0.01 s."),
         Tip => Line(
             simulated(TIPPING_PRESS, &[("mu", "1.3")], 0.1),
-            "It ends at 0 s: bed tips; model it as a block slider to go on.",
+            "It ends at 0 s: it tips (bed), which only a block slider can show.",
         ),
         Jam => {
             Line(simulated("thrown-drawer", &[], 0.6), "It jams at 0.3692 s and stays at rest until 0.6 s.")

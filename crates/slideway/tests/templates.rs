@@ -1,8 +1,8 @@
 //! Every template meets the rule in its opening comment, evaluated here by hand, at its own values and at others.
 #![allow(clippy::unwrap_used, reason = "a test stops at the first surprise")]
 
-use slideway::limits::Vary;
-use slideway::report::{Proof, Status};
+use slideway::limits::{LimitsOptions, Vary, limits};
+use slideway::report::{ModeEndCause, Proof, Status, Style};
 use slideway::standstill::HoldOptions;
 use slideway::template::{FILE, TEMPLATES, find};
 use slideway::{DriveOptions, Model, Report, Settings, check, drive, hold, solve};
@@ -387,4 +387,15 @@ fn faults_name_the_template_s_parameters() {
             "mu (friction coefficient of the guide) must be at least zero, but is -0.1"
         ]
     );
+}
+
+/// A carriage that lies flat on its rail jams from mu = L/(2 a) on, where a contact changes side: nothing is beyond.
+#[test]
+fn a_mode_that_ends_without_another_says_that_it_jams() {
+    let options = LimitsOptions::new("mu=0..1".parse::<Vary>().unwrap());
+    let report = limits(&model("carriage", &[]), &options).unwrap();
+    let end = report.modes.iter().find_map(|mode| mode.to.filter(|_| mode.to_is == ModeEndCause::SideChange));
+    assert_close(end.unwrap(), 60.0 / (2.0 * 100.0), "the end");
+    let text = report.text(Style::PLAIN);
+    assert!(text.contains("it jams: ") && text.contains("changes side"), "{text}");
 }

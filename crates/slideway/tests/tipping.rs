@@ -36,12 +36,12 @@ fn tipping_ends_the_safety_factor() {
     let options = SizeOptions::new("mu".parse::<Vary>().unwrap(), 1.0);
     let report = size(&door(&[("h", "2500 mm")]), &options).unwrap();
     assert!((report.present.margin.unwrap() - 0.18 / 0.3).abs() < 1e-12, "{:?}", report.present);
-    assert!(report.answer().contains("shoes tips; friction would have to fall to 0.6 of its value"));
+    assert!(report.answer().contains("it tips (shoes); friction would have to fall to 0.6 of its value"));
 }
 
 #[test]
 fn every_answer_says_that_it_tips() {
-    let would = "shoes would tip from mu = 0.45 (1.5 times this friction).";
+    let would = "It would tip (shoes) from mu = 0.45 (1.5 times this friction).";
     let sized = size(&door(&[]), &SizeOptions::new("mu".parse::<Vary>().unwrap(), 1.2)).unwrap().answer();
     assert!(solve(&door(&[])).unwrap().safety_in_words().concat().starts_with(would));
     assert!(drive(&door(&[]), &DriveOptions::default()).unwrap().answer().contains(would));
@@ -49,14 +49,14 @@ fn every_answer_says_that_it_tips() {
         sized.starts_with("For a safety factor of 1.2 against jamming and tipping: mu at most 0.375"),
         "{sized}"
     );
-    assert!(sized.contains("its safety factor is 1.5 (beyond, shoes tips), which is enough."), "{sized}");
+    assert!(sized.contains("its safety factor is 1.5 against tipping (shoes), which is enough."), "{sized}");
     let limited = limits(&door(&[]), &LimitsOptions::new("mu=0..1.2".parse::<Vary>().unwrap())).unwrap();
     assert_eq!(limited.answer(), "It tips from mu = 0.45 on (the model has 0.3).");
     let options = DriveOptions::default().vary("h=200 mm..5000 mm".parse::<Vary>().unwrap());
     let over = drive(&door(&[]), &options).unwrap().answer();
-    assert!(over.contains("Over h from 200 to 5000 mm, shoes tips from 1500 mm on."), "{over}");
+    assert!(over.contains("Over h from 200 to 5000 mm, it tips (shoes) from 1500 mm on."), "{over}");
     let drawn = drive(&door(&[("h", "2500 mm")]), &DriveOptions::default()).unwrap().answer();
-    assert!(drawn.contains(" shoes tips."), "{drawn}");
+    assert!(drawn.contains(" It tips (shoes)."), "{drawn}");
 }
 
 /// At rest a pull tips it as soon as its moment about a shoe exceeds W b/2, if friction holds it: here 9.81 * 30 * 0.45 / 1.9.
@@ -157,4 +157,18 @@ fn a_base_under_the_floor_is_warned_of() {
     assert_eq!(behind(&sunk), ["door lies partly behind the face of shoes"]);
     let under = DOOR.replace("along = \"0 deg\"", "along = \"180 deg\"");
     assert_eq!(behind(&under)[0], "door lies behind the face of shoes");
+}
+
+/// Backwards the moment of the pull lifts the other shoe at the same friction, b/(2 h).
+#[test]
+fn it_tips_in_both_directions() {
+    let options = LimitsOptions::new("mu=0..1.2".parse::<Vary>().unwrap()).both_directions(true);
+    let report = limits(&door(&[]), &options).unwrap();
+    assert_eq!(
+        report.conclusion,
+        [
+            "mu from 0 to 0.45: it can move in both directions.",
+            "mu from 0.45 to 1.2: in both directions it tips."
+        ]
+    );
 }

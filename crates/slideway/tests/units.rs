@@ -251,3 +251,21 @@ fn inches_and_pounds_are_a_system() {
     );
     assert_shows(&text(&report), &["power in hp"], &["power in W"]);
 }
+
+/// Units of a length are proposed for a length: in its place, in a parameter that is one, and in a setting of it.
+#[test]
+fn an_unknown_unit_is_answered_with_those_of_the_wanted_dimension() {
+    let drawer = slideway::gallery::find("drawer").unwrap().text;
+    let model = Model::parse(drawer).unwrap();
+    let faults = [
+        Model::parse(&drawer.replace("length = \"L\"", "length = \"300 mn\"")).unwrap_err(),
+        Model::parse(&drawer.replace("L = \"0.4 m\"", "L = \"300 mn\"")).unwrap_err(),
+        model.with(&Settings::default().parameter("L", "300 mn")).unwrap_err(),
+    ];
+    for faults in faults {
+        let hint = faults.sorted()[0].kind.hint().unwrap();
+        assert!(hint.starts_with("did you mean `mm`"), "{hint}");
+    }
+    let force = Model::parse(&drawer.replace("Q = \"20 N\"", "Q = \"20 mn\"")).unwrap_err();
+    assert_eq!(force.sorted()[0].kind.hint().as_deref(), Some("did you mean `mN` or `MN`?"));
+}

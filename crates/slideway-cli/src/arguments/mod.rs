@@ -106,7 +106,7 @@ pub(crate) enum Command {
     /// Find at which friction, load or size it jams
     #[command(after_help = limits::HELP)]
     Limits(LimitsArguments),
-    /// Find the dimension that gives a wanted margin against jamming
+    /// Find the dimension for a margin against jams and tipping
     #[command(after_help = size::HELP)]
     Size(SizeArguments),
     // Words that others use for the same are understood, but stand nowhere.

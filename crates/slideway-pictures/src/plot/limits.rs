@@ -281,7 +281,7 @@ pub(super) fn in_parentheses(verdicts: impl Iterator<Item = Verdict>) -> String 
         let meaning = match verdict {
             Verdict::Attainable => continue,
             Verdict::Unattainable => "unstable",
-            Verdict::Flutter => "flutters unless damped",
+            Verdict::Flutter => "may vibrate unless damped",
             Verdict::Undecided => "stability not decided",
             Verdict::NotComputed => "stability not computed",
         };
@@ -362,8 +362,7 @@ fn cause_in_words(cause: ModeEndCause, contacts: &[String]) -> Option<String> {
         ModeEndCause::Fold => "fold".to_owned(),
         ModeEndCause::HingeUnloaded => format!("no force in {at}"),
         ModeEndCause::GapCloses => format!("gap of {at} closes"),
-        ModeEndCause::Tipping if plural => format!("{at} tip"),
-        ModeEndCause::Tipping => format!("{at} tips"),
+        ModeEndCause::Tipping => format!("it tips ({at})"),
         ModeEndCause::GreatestReaction => format!("{at} at the greatest reaction"),
         ModeEndCause::Reversal => "sliding reverses".to_owned(),
         ModeEndCause::NoModeProblem => "cannot be solved".to_owned(),

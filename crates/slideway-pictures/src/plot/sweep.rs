@@ -435,11 +435,11 @@ fn grows(breakpoint: Breakpoint) -> bool {
 fn in_words(breakpoint: Breakpoint) -> &'static str {
     match breakpoint {
         Breakpoint::No => "",
-        Breakpoint::Locking => "locking",
+        Breakpoint::Locking => "it jams",
         Breakpoint::WithoutBound => "grows without bound",
         Breakpoint::SideChange => "side change",
         Breakpoint::GapCloses => "gap closes",
-        Breakpoint::Tipping => "tipping",
+        Breakpoint::Tipping => "it tips",
         Breakpoint::Fold => "fold",
         Breakpoint::HingeUnloaded => "no force in a hinge",
         Breakpoint::NotSolved => "cannot be solved",
@@ -460,7 +460,7 @@ fn name(branch: &Drawn, stroke: Stroke) -> String {
         Stroke::Solid => "",
         Stroke::Dashed => " (unstable)",
         Stroke::Dotted => " (preload gap)",
-        Stroke::DashDotted => " (flutters unless damped, or stability not decided)",
+        Stroke::DashDotted => " (may vibrate unless damped, or stability not decided)",
     };
     format!("branch {}:\u{a0}{}{meaning}", branch.number, patterns.join(", then "))
 }

@@ -1528,8 +1528,8 @@ class DriveDirection(Record):
     never_jams: bool
     """Whether there is a solution however great the friction; false also where that was not computed."""
     another_count: float | None = None
-    """Where there is a solution however great the friction: up to this factor there is the same number of them;
-    absent if that never changes."""
+    """Up to this factor there is the same number of solutions; absent if that never changes, but to none at
+    `no_solution`."""
     unique_at_least: float | None = None
     """With friction in hinges: up to at least this factor there is exactly one solution; absent without it, and
     where that is not proven."""
@@ -2131,6 +2131,8 @@ class LoadReport(Record):
     """Unit of the factor: empty for a load, "N" or "N m" for the effort of a drive."""
     factor: float
     """The factor at which everything else in the report is told: 1 for a load, 0 for a drive."""
+    force: float | None = None
+    """The resultant of the load as it is (N); absent of a drive, and where its forces balance."""
     held: tuple[Range, ...]
     """The factors with which it can stay at rest, in ascending order."""
     beyond: tuple[BeyondHeld, ...] = ()
@@ -2892,7 +2894,7 @@ class SimulateReport(Report):
 class SizeReport(_mixins.SizeReport, Report):
     """For which values a wanted margin is met."""
 
-    _absent = {"load": None, "tipping": None, "tips": (), "wedged": None}
+    _absent = {"load": None, "tipping": None, "tips": (), "wedged": None, "gently": False}
 
     schema: str
     """Version of this layout: `SCHEMA`."""
@@ -2922,6 +2924,8 @@ class SizeReport(_mixins.SizeReport, Report):
     wedged: float | None
     """The margin of holding in the model while something has wedged it, if that is greater than the one by
     itself, which is wanted; absent otherwise."""
+    gently: bool
+    """Whether to be let down gently is all that takes: nothing presses the guides only while it slides."""
     met: tuple[MetInterval, ...]
     """The intervals in which the wanted margin is met, in ascending order."""
     without_position: tuple[RangeWithoutPosition, ...]

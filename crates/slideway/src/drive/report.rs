@@ -104,8 +104,7 @@ pub struct DriveDirection {
     pub no_solution: Option<f64>,
     /// Whether there is a solution however great the friction; false also where that was not computed.
     pub never_jams: bool,
-    /// Where there is a solution however great the friction: up to this factor there is the same number of them; absent if
-    /// that never changes.
+    /// Up to this factor there is the same number of solutions; absent if that never changes, but to none at `no_solution`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub another_count: Option<f64>,
     /// With friction in hinges: up to at least this factor there is exactly one solution; absent without it, and where that is

@@ -38,20 +38,21 @@ pub(super) fn direction(model: &Model, direction: Sense, work: Work<'_>) -> Resu
     let report = solve_with(model, &options, &mut goes_on)?;
     let (stages, _) = Stages::with_standing(mechanism, configuration)?;
     let AllEfforts { solutions, range, frictionless, .. } = efforts(&report, &velocities(&stages));
-    let never_ends = report.margins.as_ref().filter(|margins| margins.no_solution.is_none());
+    let margins = report.margins.as_ref();
     let found = DriveDirection {
         tips: report.tipping_in_the_end(),
-        tipping: report.margins.as_ref().and_then(|margins| margins.tipping.clone()),
+        tipping: margins.and_then(|margins| margins.tipping.clone()),
         direction,
         status: report.status,
         complete: report.complete,
         solutions,
         range,
-        no_solution: report.margins.as_ref().and_then(|margins| margins.no_solution),
-        never_jams: never_ends.is_some(),
+        no_solution: margins.and_then(|margins| margins.no_solution),
+        never_jams: margins.is_some_and(|margins| margins.no_solution.is_none()),
         unique_at_least: report.unique_at_least,
-        another_count: never_ends.and_then(|margins| margins.another_count),
-        moves_below: report.margins.as_ref().and_then(|margins| margins.moves_below),
+        another_count: margins
+            .and_then(|margins| margins.another_count.filter(|other| Some(*other) != margins.no_solution)),
+        moves_below: margins.and_then(|margins| margins.moves_below),
         mu: only_mu(&stages.mechanism),
         blow_ups: blow_ups(&stages, work.part(1, 2))?,
         frictionless,

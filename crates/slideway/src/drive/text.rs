@@ -236,7 +236,7 @@ fn course_row(row: &CourseRow, course: &Course, units: &[Unit]) -> CourseCells {
         (Some(_), _) => match row.attainability {
             None | Some(Verdict::Attainable) => "",
             Some(Verdict::Unattainable) => "unstable",
-            Some(Verdict::Flutter) => "flutters",
+            Some(Verdict::Flutter) => "may vibrate",
             Some(Verdict::Undecided | Verdict::NotComputed) => "stability not decided",
         },
         (None, Some(_)) if course.can_tip => "no solution",

@@ -5,7 +5,7 @@ use super::report::{
     EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{JointMode, OnFace, Status, Verdict, spaced};
+use crate::report::{JointMode, OnFace, SHOWN_BY, Status, Verdict, it_tips, it_would_tip, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -26,7 +26,7 @@ pub(super) fn at_rest(report: &DriveReport) -> impl Iterator<Item = String> + '_
     report.held.iter().map(|held| format!("At rest: {}", held.words))
 }
 
-/// Where joints tip, and the greatest efforts over what is varied: "Over h from 200 to 5000 mm, shoes tips from 1500 mm on.",
+/// Where joints tip, and the greatest efforts over what is varied: "Over h from 200 to 5000 mm, it tips (shoes) from 1500 mm on.",
 /// "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an effort that hardly varies.
 pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
     let Some(course) = &report.course else { return Vec::new() };
@@ -47,10 +47,8 @@ pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
     };
     let tips = |way: &CourseDirection, limit: &TipsAt| {
         let over = if way.direction == Sense::Model { "Over" } else { "Backwards, over" };
-        let verb = if limit.joints.len() == 1 { "tips" } else { "tip" };
         let (side, on) = if limit.above { ("from", " on") } else { ("below", "") };
-        let (names, at) = (limit.joints.join(" and "), vary.shown_in.brief(limit.at));
-        format!("{over} {range}, {names} {verb} {side} {at}{on}.")
+        format!("{over} {range}, {} {side} {}{on}.", it_tips(&limit.joints), vary.shown_in.brief(limit.at))
     };
     let tipping = course.directions.iter().flat_map(|way| way.tips.iter().map(move |limit| (way, limit)));
     let peaks = course.directions.iter().flat_map(|way| way.peaks.iter().map(move |peak| (way, peak)));
@@ -71,7 +69,9 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
         Sense::Reversed => format!("Backwards, {clause}"),
         // All but names of drives and joints.
         Sense::Model
-            if ["it ", "infinitely ", "friction holds "].iter().any(|word| clause.starts_with(word)) =>
+            if ["it ", "infinitely ", "friction holds ", "from "]
+                .iter()
+                .any(|word| clause.starts_with(word)) =>
         {
             clause[..1].to_uppercase() + &clause[1..]
         }
@@ -85,7 +85,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
             .any(|other| other.direction == Sense::Model && other.tips == direction.tips);
     std::iter::once(needs(report, direction, is_advised))
         .chain(tipping(direction))
-        .chain(jam(report, direction, is_advised))
+        .chain(outlook(report, direction, is_advised))
         .map(whole)
         .collect()
 }
@@ -113,17 +113,13 @@ fn settled(report: &DriveReport, direction: &DriveDirection, only: &DriveSolutio
     format!("{}.{}{}", needs_one(report, direction, only), lifts(only), unsettled(only.attainability))
 }
 
-/// "it jams: no force moves it.", "bed tips: model it as a block slider ..."
+/// "it jams: no force moves it.", "it tips (bed), which only a block slider can show."
 fn stuck(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> String {
     if !direction.tips.is_empty() && is_advised {
-        return format!("{}, too.", tip("tips", "tip", direction));
+        return format!("{}, too.", it_tips(&direction.tips));
     }
     if !direction.tips.is_empty() {
-        return format!(
-            "{}; {} to see whether it still moves.",
-            tip("tips", "tip", direction),
-            as_block(direction)
-        );
+        return format!("{}, {SHOWN_BY}.", it_tips(&direction.tips));
     }
     format!("it jams: no {} moves it.", kind_of_all(report))
 }
@@ -133,15 +129,6 @@ fn kind_of_all(report: &DriveReport) -> &'static str {
     let kinds: Vec<Option<&str>> = report.drives.iter().map(|drive| effort::kind(drive.unit)).collect();
     let is_one = kinds.windows(2).all(|pair| pair[0] == pair[1]);
     kinds.first().copied().flatten().filter(|_| is_one).unwrap_or("effort")
-}
-
-/// "bed tips", "bed and die tip"
-fn tip(one: &str, several: &str, direction: &DriveDirection) -> String {
-    format!("{} {}", direction.tips.join(" and "), if direction.tips.len() == 1 { one } else { several })
-}
-
-fn as_block(direction: &DriveDirection) -> &'static str {
-    if direction.tips.len() == 1 { "model it as a block slider" } else { "model them as block sliders" }
 }
 
 /// "push needs 36.36 N (20 N without friction): efficiency 55 %"
@@ -182,11 +169,11 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     needs.join(", ") + &gain
 }
 
-/// " foot lifts off. shoes tips.", of joints that open or tip.
+/// " foot lifts off. It tips (shoes).", of joints that open or tip.
 fn lifts(only: &DriveSolution) -> String {
     let word = |joint: &JointMode| match joint.face? {
         OnFace::Opens => Some(format!(" {} lifts off.", joint.name)),
-        OnFace::Tips => Some(format!(" {} tips.", joint.name)),
+        OnFace::Tips => Some(format!(" It tips ({}).", joint.name)),
         OnFace::Closed => None,
     };
     only.joints.iter().filter_map(word).collect()
@@ -248,39 +235,45 @@ fn undetermined(report: &DriveReport, direction: &DriveDirection, range: &Effort
     format!("{}; {}.{further}", parts.join(", "), range.undetermined.cause())
 }
 
-/// "shoes would tip from mu = 0.45 (1.5 times this friction)."
+/// "it would tip (shoes) from mu = 0.45 (1.5 times this friction)."
 fn tipping(direction: &DriveDirection) -> Option<String> {
     let limit = direction.tipping.as_ref()?;
     let at = times_friction(limit.factor, direction.mu.map(|mu| limit.factor * mu));
-    Some(format!("{} would tip from {at}.", limit.joints.join(" and ")))
+    Some(it_would_tip(&limit.joints, &at) + ".")
+}
+
+/// When other states appear or it would jam, or that it never does; nothing where that is not known.
+fn outlook(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Vec<String> {
+    let at = |factor: f64| times_friction(factor, direction.mu.map(|mu| factor * mu));
+    let others =
+        direction.another_count.map(|changes| format!("from {} other states are possible", at(changes)));
+    match jam(report, direction, is_advised) {
+        Some(never) if direction.never_jams => {
+            vec![never + &others.map_or_else(String::new, |others| format!(", but {others}")) + "."]
+        }
+        jam => others.into_iter().chain(jam).map(|clause| clause + ".").collect(),
+    }
 }
 
 /// When it would jam, or that it never does; none where that is not known.
 fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Option<String> {
     if let Some(below) = &direction.moves_below {
         let what = if direction.tips.is_empty() { "it moves" } else { "it does not tip" };
-        return Some(format!("{what} below {}.", least_friction(below.factor, below.mu)));
+        return Some(format!("{what} below {}", least_friction(below.factor, below.mu)));
     }
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
         if let Some(factor) = direction.unique_at_least {
-            return Some(format!("it does not jam up to at least {}.", times(factor)));
+            return Some(format!("it does not jam even with {}", times(factor)));
         }
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
-        return never.then(|| match direction.another_count {
-            Some(changes) => format!(
-                "it does not jam at any friction while it moves, but from {} other states are possible.",
-                times_friction(changes, direction.mu.map(|mu| changes * mu))
-            ),
-            None => "it does not jam at any friction while it moves.".to_owned(),
-        });
+        return never.then(|| "it does not jam at any friction while it moves".to_owned());
     };
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {
-        let tips = tip("would tip", "would tip", direction);
-        let advice = if is_advised { String::new() } else { format!("; {} to go on", as_block(direction)) };
-        return Some(format!("{tips} from {at}{advice}."));
+        let advice = if is_advised { String::new() } else { format!(", {SHOWN_BY}") };
+        return Some(it_would_tip(&direction.tips, &at) + &advice);
     }
     // A jam that no growing effort announces.
     let grows = |blow_ups: &Vec<BlowUp>| blow_ups.iter().any(|one| precise(one.at) == precise(factor));
@@ -290,7 +283,7 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     } else {
         String::new()
     };
-    Some(format!("it would jam from {at}{warning}."))
+    Some(format!("it would jam from {at}{warning}"))
 }
 
 /// "40 to 80 %"
@@ -317,7 +310,7 @@ pub(super) fn is_stable(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Attainable => "yes",
         Verdict::Unattainable => "no",
-        Verdict::Flutter => "flutters",
+        Verdict::Flutter => "may vibrate",
         Verdict::Undecided => "not decided",
         Verdict::NotComputed => "not computed",
     }

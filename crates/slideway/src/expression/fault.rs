@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::dimension::Dimension;
+use super::literal::nearest_units;
 use super::names::Symbol;
 
 /// A fault of an expression and its place in the text.
@@ -292,6 +293,18 @@ fn character_hint(character: char) -> Option<String> {
         _ => return None,
     };
     Some(hint.to_owned())
+}
+
+impl ExpressionFaultKind {
+    /// Proposes units of this dimension for one that is not known, if one of them is like it.
+    pub(crate) fn propose_units(&mut self, dimension: Dimension) {
+        if let Self::UnknownUnit { unit, nearest, .. } = self {
+            let fitting = nearest_units(unit, |of_unit| of_unit == dimension);
+            if !fitting.is_empty() {
+                *nearest = fitting;
+            }
+        }
+    }
 }
 
 fn unit_hint(unit: &str, nearest: &[&str], is_name: bool) -> Option<String> {

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Names;
-use super::dimension::Inferred;
+use super::dimension::{Dimension, Inferred};
 use super::fault::{ExpressionFault, ExpressionFaultKind};
 use super::inference::whole_exponent;
 use super::lexer::{TokenKind, tokens};
@@ -11,6 +11,14 @@ use super::parser::{Parser, Read};
 use super::unit::{self, Scale, UNITS, Unit, WrittenUnit};
 use super::{names::is_reserved, nearest_names};
 use crate::interval::Interval;
+
+/// The units most like this name of those whose dimension will do.
+pub(super) fn nearest_units(name: &str, will_do: impl Fn(Dimension) -> bool) -> Vec<&'static str> {
+    let units = UNITS.iter().filter(|unit| will_do(unit.dimension));
+    let mut nearest = nearest_names(name, units.map(|unit| unit.name));
+    nearest.truncate(MAX_PROPOSALS);
+    nearest
+}
 
 /// How a unit is joined to what stands before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -139,8 +147,7 @@ impl<'t> Parser<'t> {
     }
 
     fn no_such_unit(&self, name: &str) -> ExpressionFaultKind {
-        let mut nearest = nearest_names(name, UNITS.iter().map(|unit| unit.name));
-        nearest.truncate(MAX_PROPOSALS);
+        let nearest = nearest_units(name, |_| true);
         let is_name = is_reserved(name) || self.names.lookup(name).is_some();
         ExpressionFaultKind::UnknownUnit { unit: name.to_owned(), nearest, is_name }
     }

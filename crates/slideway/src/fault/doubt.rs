@@ -71,6 +71,11 @@ impl Doubt {
         }
     }
 
+    /// Whether it concerns what is drawn and not what is computed of it: a motion that comes to such a corner ends there.
+    pub fn concerns_drawing(&self) -> bool {
+        matches!(self, Self::BareCorner { .. })
+    }
+
     /// Returns a hint in the words of the command line.
     pub fn hint(&self) -> String {
         self.hint_for(&CommandLine)

@@ -10,7 +10,6 @@ use super::report::{
 use super::varied::Varied;
 use crate::configuration::{Configuration, unit};
 use crate::fault::Faults;
-use crate::ids::ContactId;
 use crate::mechanism::{Coordinate, Mechanism};
 use crate::model::Model;
 use crate::modes::ContactState;
@@ -111,9 +110,7 @@ impl Naming {
             let is_unloaded = |forces: &Vec<Limit>| forces.get(k) == Some(&Limit::Finite(0.0));
             let changes_side =
                 |end: &ModeEnd| matches!(&end.cause, EndCause::SideChange(at) if at.contains(&k));
-            self.mechanism.excess.shares(ContactId(k))
-                && [&from, &to].into_iter().all(is_unloaded)
-                && ![&mode.from, &mode.to].into_iter().any(changes_side)
+            [&from, &to].into_iter().all(is_unloaded) && ![&mode.from, &mode.to].into_iter().any(changes_side)
         };
         let sign = |(k, sign): (usize, i8)| if floats(k) { 0 } else { sign };
         let signs: Vec<i8> = signs(&mode.pattern).into_iter().enumerate().map(sign).collect();

@@ -32,7 +32,7 @@ pub(super) fn conclusion(
     let driven = !varied.model().drives.is_empty();
     let pieces = match reversed {
         None => one_direction(forwards, driven),
-        Some(reversed) => both_directions(&forwards.counts, &reversed.counts),
+        Some(reversed) => both_directions([forwards, reversed]),
     };
     let mut joined: Vec<Piece> = Vec::new();
     for piece in pieces {
@@ -270,19 +270,27 @@ fn by_speed(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
     begins.iter().zip(ends).zip(speeds).map(piece).collect()
 }
 
-fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Piece> {
-    let mut ends: Vec<f64> =
-        forwards.iter().chain(reversed).flat_map(|count| [count.from, count.to]).collect();
+fn both_directions(directions: [&Direction; 2]) -> Vec<Piece> {
+    let pieces = |direction: &Direction| {
+        let piece = |count: &CountLimits| {
+            let is_motion = !count.is_empty();
+            let verdict = if is_motion { MOVES.to_owned() } else { count.without_solution() };
+            let whole = Piece { from: count.from, to: count.to, verdict, is_motion, known: count.known };
+            if count.solutions == 1 { by_tipping(whole, &direction.modes) } else { vec![whole] }
+        };
+        direction.counts.iter().flat_map(piece).collect::<Vec<_>>()
+    };
+    let [forwards, reversed] = directions.map(pieces);
+    let mut ends: Vec<f64> = forwards.iter().chain(&reversed).flat_map(|one| [one.from, one.to]).collect();
     ends.sort_by(f64::total_cmp);
     ends.dedup();
     let piece = |pair: &[f64]| {
         let middle = f64::midpoint(pair[0], pair[1]);
-        let at = |counts: &[CountLimits]| {
-            let count = counts.iter().find(|count| count.from < middle && middle < count.to)?;
-            let without = count.is_empty().then(|| count.without_solution());
-            Some((without, count.known))
+        let at = |pieces: &[Piece]| {
+            let here = pieces.iter().find(|one| one.from < middle && middle < one.to)?;
+            Some(((!here.is_motion).then(|| here.verdict.clone()), here.known))
         };
-        let ((one, known), (other, known_of_other)) = (at(forwards)?, at(reversed)?);
+        let ((one, known), (other, known_of_other)) = (at(&forwards)?, at(&reversed)?);
         let verdict = match (one, other) {
             (None, None) => "it can move in both directions".to_owned(),
             (None, Some(without)) => {
@@ -291,7 +299,7 @@ fn both_directions(forwards: &[CountLimits], reversed: &[CountLimits]) -> Vec<Pi
             (Some(without), None) => {
                 format!("as in the model {without}; in the opposite direction it moves")
             }
-            (Some(one), Some(other)) if one == other => format!("{one} in both directions"),
+            (Some(one), Some(other)) if one == other => format!("in both directions {one}"),
             (Some(one), Some(other)) => format!("{one}; in the opposite direction {other}"),
         };
         Some(Piece {

@@ -145,7 +145,7 @@ impl Page<'_, LimitsReport> {
         let is_whole = |mode: &ModeLimits| mode.joints.is_empty() && ends_in_range(mode);
         let verbose = self.is_verbose();
         if verbose || !modes.iter().all(is_whole) {
-            self.modes(which, modes);
+            self.modes(which, modes, counts);
         }
         let unit = &self.report.vary.shown_in;
         if verbose {
@@ -164,7 +164,7 @@ impl Page<'_, LimitsReport> {
     }
 
     /// Where each contact mode exists.
-    fn modes(&mut self, which: &str, modes: &[ModeLimits]) {
+    fn modes(&mut self, which: &str, modes: &[ModeLimits], counts: &[CountLimits]) {
         self.line("");
         self.headline(&format!("Contact modes{which}"));
         let unit = &self.report.vary.shown_in;
@@ -178,7 +178,7 @@ impl Page<'_, LimitsReport> {
             titles.extend(has_orientation.then_some("orientation"));
         }
         let row = |mode: &ModeLimits| {
-            let mut row = mode_row(mode, unit, verbose);
+            let mut row = mode_row(mode, counts, unit, verbose);
             row.extend((verbose && has_orientation).then(|| orientation(mode).to_owned()));
             row
         };
@@ -268,20 +268,28 @@ pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool
     joined.chunk_by(|(_, one), (_, next)| one == next).map(sentence).collect()
 }
 
-fn mode_row(mode: &ModeLimits, unit: &Unit, verbose: bool) -> Vec<String> {
+fn mode_row(mode: &ModeLimits, counts: &[CountLimits], unit: &Unit, verbose: bool) -> Vec<String> {
     let end = |at: Option<f64>| at.map_or("infinity".to_owned(), |at| unit.precise_number(at));
     let contacts =
         |grows: fn(&EndReaction) -> i8| mode.reactions.iter().map(move |one| (&*one.contact, grows(one)));
     let hinges = |grows: fn(&EndHingeForce) -> bool| {
         mode.hinge_forces.iter().map(move |one| (&*one.hinge, i8::from(grows(one))))
     };
-    let begins = cause(
-        mode.from_is,
-        &mode.from_at,
-        contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows)),
-    );
-    let ends = cause(mode.to_is, &mode.to_at, contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows)));
     let (from, to) = (end(mode.from), end(mode.to));
+    // Beyond an end without a solution it jams, whatever ended the mode.
+    let jams = |is: ModeEndCause, at: &str, other: fn(&CountLimits) -> f64| {
+        let says_so = matches!(is, ModeEndCause::Locking | ModeEndCause::Tipping | ModeEndCause::Range);
+        let is_there = |count: &&CountLimits| unit.precise_number(other(count)) == at;
+        let is_jam = |count: &CountLimits| count.is_empty() && count.tipping.is_none();
+        let jams = !says_so && counts.iter().filter(is_there).any(is_jam);
+        if jams { "it jams: " } else { "" }
+    };
+    let reactions = contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows));
+    let begins = jams(mode.from_is, &from, |count| count.to).to_owned()
+        + &cause(mode.from_is, &mode.from_at, reactions);
+    let reactions = contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows));
+    let ends =
+        jams(mode.to_is, &to, |count| count.from).to_owned() + &cause(mode.to_is, &mode.to_at, reactions);
     if verbose {
         vec![spaced(&mode.pattern), from, to, begins, ends]
     } else {
@@ -337,8 +345,7 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
             format!("{at} {}", is.of_contacts(several))
         }
         ModeEndCause::GapCloses => format!("the gap of {at} closes"),
-        ModeEndCause::Tipping if several => format!("{at} tip"),
-        ModeEndCause::Tipping => format!("{at} tips"),
+        ModeEndCause::Tipping => format!("it tips ({at})"),
         ModeEndCause::GreatestReaction => format!("{at} at the greatest reaction"),
         ModeEndCause::Fold => "it merges with another solution".to_owned(),
         ModeEndCause::HingeUnloaded if several => format!("the forces of {at} vanish"),

@@ -288,7 +288,11 @@ impl Model {
         };
         let origin = Origin { source: source.clone(), span, expression_start };
         let what: Arc<str> = Arc::from(format!("the value of {}", setting.name));
-        let (expression, range) = self.parsed(setting, &origin, &what)?;
+        let propose = |mut faults: Faults| {
+            faults.propose_units(|_| wanted);
+            faults
+        };
+        let (expression, range) = self.parsed(setting, &origin, &what).map_err(propose)?;
         Ok(Formula {
             expression,
             range,

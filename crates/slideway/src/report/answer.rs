@@ -3,7 +3,7 @@
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
     Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
-    SpeedChange, Status, Verdict,
+    SpeedChange, Status, Verdict, it_would_tip,
 };
 use crate::units::brief;
 
@@ -149,9 +149,8 @@ impl SolveReport {
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
         let tips = margins.tipping.iter();
-        let mut sentences: Vec<String> = tips
-            .map(|tips| format!("{} would tip from {}.", tips.joints.join(" and "), at(tips.factor)))
-            .collect();
+        let mut sentences: Vec<String> =
+            tips.map(|tips| sentence(&it_would_tip(&tips.joints, &at(tips.factor)))).collect();
         let jams = margins.no_solution;
         if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
             sentences.push(if self.status == Status::One {
@@ -411,7 +410,7 @@ impl SolveReport {
                 format!("It would catch and stop at once (jam) from {at}{again}.")
             }
             [] => format!("It would jam from {at}{again}."),
-            joints => format!("{} would tip from {at}{again}.", joints.join(" and ")),
+            joints => sentence(&(it_would_tip(joints, at) + &again)),
         }
     }
 
@@ -428,6 +427,11 @@ impl SolveReport {
 /// "Up to 2.222 times this friction it moves in one way only, under any load."
 fn safe_up_to(any: &str, times: &str) -> String {
     format!("Up to {times} it moves in one way only, under {any}.")
+}
+
+/// A clause as a sentence.
+fn sentence(clause: &str) -> String {
+    clause[..1].to_uppercase() + &clause[1..] + "."
 }
 
 /// The end of a sentence, and the contacts that lift off in a solution: ". tip lifts off.", of a block that keeps another

@@ -28,6 +28,7 @@ impl Report for SolveReport {
         }
         text.margins();
         text.uncertainty();
+        text.sharing();
         for (index, solution) in self.solutions.iter().enumerate() {
             let title = format!("Solution {} of {}", index + 1, self.solutions.len());
             text.solution(&title, solution);
@@ -106,6 +107,15 @@ impl SolveReport {
 type Text<'r> = Page<'r, SolveReport>;
 
 impl Text<'_> {
+    /// How redundant guides share their load.
+    fn sharing(&mut self) {
+        let Some(sharing) = &self.report.sharing else { return };
+        let units = &self.report.model.units;
+        self.gap();
+        let lines = if self.is_verbose() { sharing.in_words(units) } else { sharing.in_brief(units) };
+        lines.iter().for_each(|line| self.line(line));
+    }
+
     fn heading(&mut self) {
         let model = &self.report.model;
         if let Some(title) = &model.title {
@@ -130,14 +140,6 @@ impl Text<'_> {
         self.line(&state.join("; "));
         if let Some(steps) = self.report.steps_from_drawing.filter(|_| self.is_verbose()) {
             self.line(&followed(steps));
-        }
-        if let Some(sharing) = &self.report.sharing {
-            let lines = if self.is_verbose() {
-                sharing.in_words(&model.units)
-            } else {
-                sharing.in_brief(&model.units)
-            };
-            lines.iter().for_each(|line| self.line(line));
         }
         self.line("");
     }

@@ -26,15 +26,24 @@ impl Tipping {
         (!tipping.joints.is_empty()).then_some(tipping)
     }
 
-    /// "bed tips, which a guided slider cannot show (model it as a block slider)", where some states lock after "it jams, or".
+    /// "it tips (bed), which only a block slider can show", where some states lock after "it jams, or".
     pub(crate) fn in_words(&self) -> String {
-        let names = self.joints.join(" and ");
-        let tips = match self.joints.len() {
-            1 => format!("{names} tips, which a guided slider cannot show (model it as a block slider)"),
-            _ => format!("{names} tip, which guided sliders cannot show (model them as block sliders)"),
-        };
+        let tips = format!("{}, {SHOWN_BY}", it_tips(&self.joints));
         if self.throughout { tips } else { format!("it jams, or {tips}") }
     }
+}
+
+/// What shows how a guided slider goes on that tips.
+pub(crate) const SHOWN_BY: &str = "which only a block slider can show";
+
+/// "it tips (bed and die)": a name may be plural, so no verb follows one.
+pub(crate) fn it_tips(joints: &[String]) -> String {
+    format!("it tips ({})", joints.join(" and "))
+}
+
+/// "it would tip (shoes) from mu = 0.45 (1.5 times this friction)"
+pub(crate) fn it_would_tip(joints: &[String], from: &str) -> String {
+    format!("it would tip ({}) from {from}", joints.join(" and "))
 }
 
 /// The meaning of no solution: "it jams", or what tips.

@@ -31,6 +31,8 @@ pub(super) struct Sought<'q> {
     pub(super) may_tip: bool,
     /// The margin in the model while something has wedged it.
     pub(super) wedged: Option<f64>,
+    /// Whether to be let down gently is all that takes.
+    pub(super) gently: bool,
     pub(super) found: SizesFound,
 }
 
@@ -40,7 +42,8 @@ pub(super) fn report(
     options: &SizeOptions,
     sought: &Sought<'_>,
 ) -> SizeReport {
-    let Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, found } = sought;
+    let Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, gently, found } =
+        sought;
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
         Against::SelfLocking { load } => (MarginKind::SelfLocking, Some(load.clone())),
@@ -75,6 +78,7 @@ pub(super) fn report(
         tips: tips.clone(),
         may_tip: *may_tip,
         wedged: *wedged,
+        gently: *gently,
         met: found.met.iter().map(|ends| interval(ends, same_ends, told)).collect(),
         without_position: found.gaps.iter().map(|one| gap(one, same_ends)).collect(),
         samples: samples(found, (*steps, options.margin), told),

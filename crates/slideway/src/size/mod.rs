@@ -44,7 +44,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
-use crate::standstill::only_load;
+use crate::standstill::{HoldOptions, hold_within, only_load};
 use crate::units::Unit;
 use margin::{Margin, MarginQuestion};
 use search::MarginSearch;
@@ -267,6 +267,9 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     let tipping = question.tipping(value, work);
     let tips = question.tips(value, work);
     let wedged = present.and_then(|by_itself| question.wedged(value, by_itself, work));
+    let gently = wedged.is_some() && options.against == Against::Hold { load: None } && {
+        hold_within(model, &HoldOptions::default(), work)?.falls_freely()
+    };
     let found = MarginSearch { question: &question, wanted, range, steps, work }.run();
     if found.places.iter().all(|place| place.margin.is_none()) {
         // Nowhere an answer: the faults in the middle say why.
@@ -274,8 +277,19 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
     }
     let mechanism = Mechanism::new(model)?;
     let (state, may_tip) = (held_state(&mechanism, &varied, range), mechanism.may_tip());
-    let sought =
-        answer::Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, found };
+    let sought = answer::Sought {
+        question,
+        range,
+        steps,
+        value,
+        present,
+        tipping,
+        tips,
+        may_tip,
+        wedged,
+        gently,
+        found,
+    };
     finite(answer::report(model, state, options, &sought))
 }
 

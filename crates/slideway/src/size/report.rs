@@ -108,6 +108,9 @@ pub struct SizeReport {
     /// wanted; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wedged: Option<f64>,
+    /// Whether to be let down gently is all that takes: nothing presses the guides only while it slides.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub gently: bool,
     /// The intervals in which the wanted margin is met, in ascending order.
     pub met: Vec<MetInterval>,
     /// Ranges in which the mechanism cannot be assembled or solved, the model does not allow the values, or a

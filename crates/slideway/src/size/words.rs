@@ -5,7 +5,7 @@ use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeRep
 use super::search::Tried;
 use crate::limits::no_answers;
 use crate::report::number::precise;
-use crate::report::{NO_DRIVE, Tipping, without_solution};
+use crate::report::{NO_DRIVE, Tipping, it_tips, without_solution};
 use crate::units::{Unit, brief};
 
 /// A report whose conclusion is sought.
@@ -144,7 +144,9 @@ impl Words<'_> {
             }
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking if report.tips.is_empty() => "it is on the verge of jamming".to_owned(),
-                MarginKind::Locking => format!("{} on the verge of tipping", are(&report.tips)),
+                MarginKind::Locking => {
+                    format!("it is on the verge of tipping ({})", report.tips.join(" and "))
+                }
                 _ => format!("it just holds{}", every_load(report)),
             },
             (SampleKind::NoPosition, _) => "there is no answer there".to_owned(),
@@ -154,7 +156,8 @@ impl Words<'_> {
         let wedged = match report.wedged {
             None => String::new(),
             Some(margin) if margin >= 1.0 - SAME => {
-                format!("; wedged by a knock it holds with a safety factor of {}", brief(margin))
+                let how = if report.gently { "let down gently" } else { "wedged by a knock" };
+                format!("; {how} it holds with a safety factor of {}", brief(margin))
             }
             Some(margin) => {
                 let growth = brief(margin.recip());
@@ -176,12 +179,14 @@ impl Words<'_> {
                 format!("its safety factor is {factor}, {enough}")
             }
             (MarginKind::Locking, true) => {
-                let tips = tip(&report.tips);
-                format!("its safety factor is {factor} (beyond, {tips}), {enough}")
+                format!(
+                    "its safety factor is {factor} against tipping ({}), {enough}",
+                    report.tips.join(" and ")
+                )
             }
             (MarginKind::Locking, false) => {
                 let jams = || without_solution(report.tipping.as_ref());
-                let now = if report.tips.is_empty() { jams() } else { tip(&report.tips) };
+                let now = if report.tips.is_empty() { jams() } else { it_tips(&report.tips) };
                 format!("{now}; friction would have to fall to {factor} of its value")
             }
             (MarginKind::SelfLocking, true) => {
@@ -192,7 +197,7 @@ impl Words<'_> {
             (MarginKind::SelfLocking, false) => format!(
                 "it is self-locking under `{load}`; static friction would have to fall to {factor} of its value"
             ),
-            (_, _) if margin == 0.0 => format!("no static friction makes it hold{every}"),
+            (_, _) if margin == 0.0 => format!("no static friction is enough to hold{every}"),
             (_, true) => format!("it holds{every} with a safety factor of {factor}, {enough}"),
             (_, false) => {
                 format!(
@@ -219,16 +224,6 @@ impl Words<'_> {
         (is_same || never_told)
             .then(|| format!("The {} is the same throughout this range.", subject(self.report)))
     }
-}
-
-/// "shoes tips", "left and right tip"
-fn tip(joints: &[String]) -> String {
-    format!("{} {}", joints.join(" and "), if joints.len() == 1 { "tips" } else { "tip" })
-}
-
-/// "shoes is", "left and right are"
-fn are(joints: &[String]) -> String {
-    format!("{} {}", joints.join(" and "), if joints.len() == 1 { "is" } else { "are" })
 }
 
 fn never(report: &SizeReport) -> String {

@@ -145,12 +145,13 @@ impl Answer<'_> {
     /// Examines all solutions that lie within a mode.
     pub(super) fn examine(&self, solutions: &mut [Solution]) -> Result<(), Faults> {
         for solution in solutions.iter_mut() {
-            solution.attainability = not_computed(if solution.floating.is_empty() {
-                "nothing presses a contact"
+            solution.attainability = if solution.floating.is_empty() {
+                not_computed(&unloaded_in_words(self.mechanism, solution))
             } else {
-                "the block floats within its play"
-            });
+                not_computed("the block floats within its play")
+            };
         }
+        let is_on_boundary = |solution: &Solution| is_on_boundary(self.mechanism, solution);
         let may_open = self.mechanism.has_one_sided();
         if solutions.iter().all(is_on_boundary) && self.shared.is_none() && !may_open {
             return Ok(());
@@ -195,8 +196,8 @@ impl Answer<'_> {
                 solutions[index].oriented_determinant = mean;
             }
         }
-        let inside: Vec<usize> =
-            members.iter().copied().filter(|&index| !is_on_boundary(&solutions[index])).collect();
+        let is_inside = |index: &usize| !is_on_boundary(self.mechanism, &solutions[*index]);
+        let inside: Vec<usize> = members.iter().copied().filter(is_inside).collect();
         let candidates: Vec<Candidate> =
             inside.iter().map(|&index| closed.candidate(&solutions[index])).collect();
         // What lies beside a solution is followed between faces that press on both sides only.
@@ -218,9 +219,23 @@ impl Answer<'_> {
     }
 }
 
-/// Whether a solution belongs to several modes, or to a singular one.
-fn is_on_boundary(solution: &Solution) -> bool {
-    let pressed =
-        solution.signs.iter().zip(states(&solution.pattern)).filter(|(_, state)| *state != ContactState::Gap);
-    solution.on_boundary || solution.determinant == 0.0 || pressed.into_iter().any(|(sign, _)| *sign == 0)
+/// The contacts between faces that nothing presses.
+fn unloaded(solution: &Solution) -> impl Iterator<Item = usize> + '_ {
+    let sides = solution.signs.iter().zip(states(&solution.pattern)).enumerate();
+    sides.filter(|(_, (sign, state))| **sign == 0 && *state != ContactState::Gap).map(|(k, _)| k)
+}
+
+/// Whether a solution belongs to several modes, or to a singular one. Without friction both sides of a contact are one.
+fn is_on_boundary(mechanism: &Mechanism, solution: &Solution) -> bool {
+    let mut contacts = unloaded(solution).peekable();
+    let hides_side = solution.on_boundary && contacts.peek().is_none();
+    hides_side || solution.determinant == 0.0 || contacts.any(|k| mechanism.contacts[k].mu != [0.0; 2])
+}
+
+/// "nothing presses rail.f, rail.r"
+fn unloaded_in_words(mechanism: &Mechanism, solution: &Solution) -> String {
+    let rough = unloaded(solution).filter(|&k| mechanism.contacts[k].mu != [0.0; 2]);
+    let names: Vec<&str> = rough.map(|k| &*mechanism.contacts[k].name).collect();
+    let what = if names.is_empty() { "a contact".to_owned() } else { names.join(", ") };
+    format!("nothing presses {what}")
 }

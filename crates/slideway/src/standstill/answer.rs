@@ -54,7 +54,7 @@ fn verdict(report: &HoldReport) -> String {
         }
         HoldVerdict::HoldsOrSlips => {
             let may = "It may hold, or it may start to slide: do not rely on it.";
-            format!("{may}{}", if falls_freely(report) { FALLS_FREELY } else { "" })
+            format!("{may}{}", if report.falls_freely() { FALLS_FREELY } else { "" })
         }
         HoldVerdict::Moves => moves(report),
         HoldVerdict::Neither => {
@@ -105,20 +105,22 @@ const FALLS_FREELY: &str = " While it slides nothing presses its guides; let dow
 /// Forces up to this part of the greatest at rest press nothing.
 const NOTHING: f64 = 1e-12;
 
-/// Whether in every motion that begins no contact is pressed, and at rest all forces have bounds: they grow with the loads then, so
-/// that it holds while the loads are let on little by little.
-fn falls_freely(report: &HoldReport) -> bool {
-    let is_zero = |range: &Range| {
-        let ends = [range.least, range.greatest];
-        ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * report.force))
-    };
-    let nothing_presses = |release: &Release| {
-        let contacts = &release.reactions.contacts;
-        !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
-    };
-    let rest = report.at_rest.as_ref();
-    let is_wedged = report.sharing.is_some() || rest.is_none_or(|rest| !rest.wedging.is_empty());
-    !is_wedged && !report.releases.is_empty() && report.releases.iter().all(nothing_presses)
+impl HoldReport {
+    /// Whether in every motion that begins no contact is pressed, and at rest all forces have bounds: they grow with the loads
+    /// then, so that it holds while the loads are let on little by little.
+    pub(crate) fn falls_freely(&self) -> bool {
+        let is_zero = |range: &Range| {
+            let ends = [range.least, range.greatest];
+            ends.into_iter().all(|end| end.is_some_and(|end| end.abs() <= NOTHING * self.force))
+        };
+        let nothing_presses = |release: &Release| {
+            let contacts = &release.reactions.contacts;
+            !contacts.is_empty() && contacts.iter().all(|contact| contact.normal_forces().iter().all(is_zero))
+        };
+        let rest = self.at_rest.as_ref();
+        let is_wedged = self.sharing.is_some() || rest.is_none_or(|rest| !rest.wedging.is_empty());
+        !is_wedged && !self.releases.is_empty() && self.releases.iter().all(nothing_presses)
+    }
 }
 
 /// "It does not hold: it starts to slide (x: -4 m/s^2)."
@@ -227,8 +229,26 @@ fn held(report: &HoldReport, load: &LoadReport) -> String {
             // What acts as it was named comes before what is reversed.
             let (named, reversed): (Vec<&Range>, Vec<&Range>) =
                 ranges.iter().partition(|range| range.greatest.is_none_or(|greatest| greatest > 0.0));
-            let all: Vec<String> = named.into_iter().chain(reversed).map(one).collect();
+            let with_force = |range: &Range| one(range) + &in_newtons(report, load, range);
+            let all: Vec<String> = named.into_iter().chain(reversed).map(with_force).collect();
             format!("It {holds} {}.", all.join(", or "))
+        }
+    }
+}
+
+/// The forces at the ends of a range of factors: " (90 N)", " (20 to 90 N)". Empty of a drive, and where it has no end.
+fn in_newtons(report: &HoldReport, load: &LoadReport, range: &Range) -> String {
+    let Some(force) = load.force else { return String::new() };
+    let unit = report.units.of("N");
+    let ends = [range.least, range.greatest].map(|end| end.filter(|end| *end != 0.0).map(|end| end * force));
+    match ends {
+        [Some(least), Some(greatest)] if brief(least.abs()) != brief(greatest.abs()) => {
+            format!(" ({} to {})", unit.brief_number(least), unit.brief(greatest))
+        }
+        [None, None] => String::new(),
+        [least, greatest] => {
+            let end = greatest.or(least).unwrap_or_default();
+            format!(" ({})", unit.brief(end.abs()))
         }
     }
 }
@@ -298,7 +318,7 @@ fn never_locks(
     match (self_locking, undecided) {
         (true, 0) => format!("Self-locking: it holds any `{name}`, but not with `{name}` as the only load."),
         (true, _) => format!("Self-locking: it holds any `{name}`. From which {varied} on was not decided."),
-        (false, 0) => format!("Not self-locking: no {varied} makes it so."),
+        (false, 0) => format!("Not self-locking at any {varied}."),
         (false, _) => format!("Whether any {varied} makes it self-locking was not decided."),
     }
 }

@@ -171,6 +171,9 @@ pub struct LoadReport {
     pub unit: &'static str,
     /// The factor at which everything else in the report is told: 1 for a load, 0 for a drive.
     pub factor: f64,
+    /// The resultant of the load as it is (N); absent of a drive, and where its forces balance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub force: Option<f64>,
     /// The factors with which it can stay at rest, in ascending order.
     pub held: Vec<Range>,
     /// What it begins to do just beyond each end of these ranges, where contacts may lift off; absent without.

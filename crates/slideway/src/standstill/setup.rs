@@ -50,6 +50,15 @@ pub(crate) struct VariedLoad {
     pub(super) unit: &'static str,
 }
 
+impl VariedLoad {
+    /// Its resultant at a factor of one (N); none of a drive, and where its forces balance.
+    pub(super) fn resultant(&self) -> Option<f64> {
+        let [x, y] = [0, 1].map(|axis| self.forces.iter().skip(axis).step_by(3).sum::<f64>());
+        let force = x.hypot(y);
+        (self.unit.is_empty() && force != 0.0).then_some(force)
+    }
+}
+
 /// A mechanism at rest.
 #[derive(Debug, Clone)]
 pub(crate) struct Setup {

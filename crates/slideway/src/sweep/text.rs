@@ -53,10 +53,10 @@ impl Sweep {
         let unsolved = all - tally.solved();
         let [of, ending] =
             if self.has_branches() { ["of them", ""] } else { ["of the samples", " and are not counted"] };
-        sentences.extend((several > 0).then(|| format!("{several} {of} have several solutions.")));
+        sentences.extend((several > 0).then(|| format!("Several solutions: at {several} {of}.")));
         let open = tally.with_status(PointStatus::Unknown);
-        sentences.extend((open > 0).then(|| format!("{open} {of} are not decided.")));
-        sentences.extend((unsolved > 0).then(|| format!("{unsolved} {of} could not be solved{ending}.")));
+        sentences.extend((open > 0).then(|| format!("Not decided: {open} {of}.")));
+        sentences.extend((unsolved > 0).then(|| format!("Could not be solved{ending}: {unsolved} {of}.")));
         sentences.join(" ")
     }
 

@@ -270,10 +270,7 @@ fn a_slider_that_tips_is_not_told_as_locked() {
     assert!(driven.directions.iter().all(|direction| direction.tips == ["bed"]));
     assert_eq!(
         driven.conclusion[..2],
-        [
-            "bed tips; model it as a block slider to see whether it still moves.",
-            "It does not tip below mu = 1.25."
-        ]
+        ["It tips (bed), which only a block slider can show.", "It does not tip below mu = 1.25."]
     );
     is_no_lock(&driven.text(Style::PLAIN));
     let limits = limits(&model, &LimitsOptions::new(Vary::between("mu", 0.0, 2.0))).expect("an answer");
@@ -284,7 +281,7 @@ fn a_slider_that_tips_is_not_told_as_locked() {
     assert_eq!((tipping.joints.as_slice(), tipping.throughout), (["bed".to_owned()].as_slice(), true));
     is_no_lock(&limits.conclusion.join(" "));
     // Where friction would have to fall to, and that no effort is known.
-    let tips = "bed tips, which a guided slider cannot show (model it as a block slider)";
+    let tips = "it tips (bed), which only a block slider can show";
     for (against, margin, told) in [
         (Against::Locking, 1.0, format!("{tips}; friction would have to fall to 0.9615 of its value.")),
         (Against::Effort { drive: None }, 1e5, format!("{tips}, so the limit is not kept.")),
@@ -317,8 +314,7 @@ fn a_margin_that_tipping_ends_says_so() {
     assert!((margins.no_solution.expect("it tips") - 11.39).abs() < 0.005);
     let driven = drive(&model, &DriveOptions::default()).expect("an answer");
     assert_eq!(driven.directions[0].tips, ["floor"]);
-    let beyond =
-        "floor would tip from mu = 3.418 (11.39 times this friction); model it as a block slider to go on.";
+    let beyond = "It would tip (floor) from mu = 3.418 (11.39 times this friction), which only a block slider can show.";
     assert!(driven.conclusion.iter().any(|sentence| sentence == beyond), "{:?}", driven.conclusion);
     is_no_lock(&driven.conclusion.join(" "));
     assert_eq!(

@@ -5,6 +5,7 @@
 //! middle: from `L/(2 a)` and from `L/b` on.
 
 use crate::answers::{assert_close, model, parameters};
+use slideway::gallery;
 use slideway::limits::{Vary, rest_limits};
 use slideway::map::{ColourBy, MapOptions, map};
 use slideway::model::Model;
@@ -112,4 +113,18 @@ fn ranges_maps_and_sizes_tell_what_holds_only_while_wedged() {
     let mu = Vary::between("mu_static", "0.6", "3");
     let plane = map(&bracket, &MapOptions::new(x(), mu).colour_by(ColourBy::Hold).size(8, 8)).unwrap();
     assert_eq!(plane.classes.len(), 2, "{:?}", plane.classes);
+}
+
+/// A bracket with its weight at the hook falls freely once it slides. Let down gently it holds from mu_static = B/(2 x) = 0.25
+/// on: 0.4 is 1.6 times that.
+#[test]
+fn sizes_tell_what_holds_if_it_is_let_down_gently() {
+    let weight = "mass = 2\ncentre_of_mass = \"hook\"\nmoment_of_inertia = 0.01";
+    let load = "[loads.W]\ntype = \"force\"\nat = \"bracket.hook\"\ncomponents = [0, \"-W\"]\n";
+    let text = gallery::find("bracket-on-pole").unwrap().text.replace("massless = true", weight);
+    let text = format!("gravity = \"9.81 m/s^2\"\n{}", text.replace(load, ""));
+    let model = Model::parse(&text).unwrap().with(&parameters(&[("mu_static", "0.4")])).unwrap();
+    let options = SizeOptions::new("x".parse::<Vary>().unwrap(), 1.0).against(Against::Hold { load: None });
+    let answer = size(&model, &options).unwrap().answer();
+    assert!(answer.contains("; let down gently it holds with a safety factor of 1.6"), "{answer}");
 }

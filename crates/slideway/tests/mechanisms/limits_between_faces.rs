@@ -66,8 +66,7 @@ fn its_state_between_the_faces_ends_where_the_preload_cannot_balance_the_moment(
         assert_eq!(there.expect("an interval").preload_gap_states, 1, "{name}");
         let moves = "it can move in both directions";
         assert!(report.conclusion.iter().any(|sentence| sentence.contains(moves)), "{name}");
-        let beyond =
-            "s tips, which a guided slider cannot show (model it as a block slider) in both directions";
+        let beyond = "in both directions it tips (s), which only a block slider can show";
         assert!(report.conclusion.iter().any(|sentence| sentence.contains(beyond)), "{name}");
     }
 }

@@ -1063,3 +1063,14 @@ fn what_is_held_in_space_is_what_has_forces_in_equilibrium() {
     }
     assert!(compared > 250 && held > 50 && compared - held > 50, "{held} of {compared}");
 }
+
+/// A key without friction carries nothing: both of its sides are one, and the friction of the others decides. Friction does no work
+/// that changes this: the verdict is that of the pressed key.
+#[test]
+fn what_carries_nothing_without_friction_leaves_stability_as_it_is() {
+    let verdict = |text: &str| report_on(text).solutions[0].attainability.clone();
+    let (free, pressed) = (verdict(GUIDE), verdict(&GUIDE.replace("twist = 0 ", "twist = 0.3 ")));
+    assert_eq!((free.verdict, free.reason), (pressed.verdict, pressed.reason));
+    let rough = verdict(&GUIDE.replace("\"90 deg\", mu = 0 }", "\"90 deg\" }"));
+    assert_eq!(rough.reason.as_deref(), Some("nothing presses guide.key"));
+}

@@ -17,7 +17,9 @@ use super::range::{Parsed, parse_value};
 use super::sections::{JointContents, Sections, sections};
 use super::structure::STAND_IN;
 use super::{Along, Gravity, Model, NamedPoint, Parameter, Value};
-use crate::expression::{Dimension, Expression, ExpressionFault, Names, is_reserved, is_valid_name, parse};
+use crate::expression::{
+    Dimension, Expression, ExpressionFault, Names, Symbol, is_reserved, is_valid_name, parse,
+};
 use crate::fault::{Fault, FaultKind, Faults, Place as FaultPlace, Source, nearest};
 use crate::ids::{BodyId, CoordinateId, FormulaId, Frame, JointId};
 use crate::units::Units;
@@ -159,6 +161,7 @@ impl<'t> Reader<'t> {
         let loads = self.read_loads(sections.loads);
         let drives = self.read_drives(sections.drives);
         let events = self.read_events(sections.events);
+        self.propose_units(&parameters);
         Model {
             title: sections.title.map(|title| title.text),
             parameters,
@@ -177,6 +180,26 @@ impl<'t> Reader<'t> {
             friction: 1.0,
             looks: std::mem::take(&mut self.looks),
         }
+    }
+
+    /// Has unknown units propose those of what is wanted there: of a parameter, what a formula wants that is nothing but it.
+    fn propose_units(&mut self, parameters: &[Parameter]) {
+        let formulas = &self.formulas;
+        let is_parameter = |formula: &Formula, index: usize| {
+            formula.expression.only_symbol().is_some_and(|symbol| symbol == Symbol::Parameter(index))
+        };
+        let wanted_of = |index: usize| {
+            formulas.iter().filter(|formula| is_parameter(formula, index)).find_map(|formula| formula.wanted)
+        };
+        self.faults.propose_units(|place| {
+            let holds = |formula: &Formula| {
+                let span = &formula.origin.span;
+                formula.broken && span.start <= place.span.start && place.span.end <= span.end
+            };
+            let index = formulas.iter().position(holds)?;
+            let parameter = || parameters.iter().position(|parameter| parameter.value == FormulaId(index));
+            formulas[index].wanted.or_else(|| wanted_of(parameter()?))
+        });
     }
 
     fn fault(&mut self, kind: FaultKind, span: &super::quantity::Span) {

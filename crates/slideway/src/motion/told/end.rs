@@ -6,6 +6,7 @@ use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, moving};
 use crate::motion::record::history::{End, History};
+use crate::report::{SHOWN_BY, it_tips};
 
 /// The end in a sentence.
 pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> String {
@@ -46,7 +47,7 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             "It ends at {time}: at decision {branching} there is no branch with the number asked for."
         ),
         End::Tips(id) => {
-            format!("It ends at {time}: {} tips; model it as a block slider to go on.", joint(id))
+            format!("It ends at {time}: {}, {SHOWN_BY}.", it_tips(&[joint(id).to_string()]))
         }
         End::NoContinuation => format!("It ends at {time}: it can neither stick nor start to slide."),
         End::Jammed if history.stop() == history.start() => {
