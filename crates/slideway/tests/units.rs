@@ -1,5 +1,7 @@
 //! The units in which answers are shown: the choice, and that every report follows it.
 
+#![allow(clippy::unwrap_used, reason = "a test that meets a missing value has failed")]
+
 use slideway::check::check;
 use slideway::drive::DriveOptions;
 use slideway::limits::{LimitsOptions, Quantity, Vary, limits_with_curves};
