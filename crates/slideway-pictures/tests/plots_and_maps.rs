@@ -93,7 +93,7 @@ fn the_paper_s_figures() {
         "normal force in N",
         // To the right another solution stays, to the left none is left.
         "0.452654: grows without bound",
-        "0.452654: locking",
+        "0.452654: it jams",
     ] {
         assert!(svg.contains(words), "{words}");
     }

@@ -188,7 +188,7 @@ fn hold_answers() {
         ),
         (
             held(SASH, &[], Some("gravity")),
-            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity`. Only wedged by a knock it would hold any `gravity` from mu_s = 0.6667 (now 0.3).",
+            "It does not hold: it starts to slide (y: -3.433 m/s^2). It would hold with 0.275 to 0.725 times `gravity` (21.58 to 56.9 N). Only wedged by a knock it would hold any `gravity` from mu_s = 0.6667 (now 0.3).",
         ),
         (
             held(SASH, &wedged, Some("gravity")),
@@ -200,7 +200,7 @@ fn hold_answers() {
         ),
         (
             held("slider-crank-with-pins", &[("mu_pin", "0.3")], Some("gas")),
-            "It does not hold: it starts to slide (phi: 7164 rad/s^2). It would hold with -0.4922 to -0.3355 times `gas`. Whether any static friction makes it self-locking was not decided.",
+            "It does not hold: it starts to slide (phi: 7164 rad/s^2). It would hold with -0.4922 to -0.3355 times `gas` (-0.4922 to -0.3355 kN). Whether any static friction makes it self-locking was not decided.",
         ),
         (
             held("telescopic-boom", &[], Some("cylinder_1")),
@@ -414,12 +414,12 @@ fn sweep_answers() {
         (swept(&drawer, &grid("mu=0.7..1:4")), "It jams at all 4 points."),
         (
             swept(&model("slider-crank", &[]), &grid("l=5 mm..200 mm:4")),
-            "It jams at none of 4 points. 1 of them could not be solved.",
+            "It jams at none of 4 points. Could not be solved at 1 of them.",
         ),
         (swept(&drawer, &samples), "It jams with a probability of 0 % (0 to 3.699 % with 95 % confidence)."),
         (
             swept(&model("drawer", &[("v", "-0.1 m/s")]), &grid("mu=0..1:11")),
-            "It jams at none of 11 points. 4 of them have several solutions.",
+            "It jams at none of 11 points. Several solutions at 4 of them.",
         ),
         // The bed tips from mu = 1.25 on, and jams beyond cot(20 deg) = 2.747.
         (

@@ -74,7 +74,7 @@ fn a_guided_slider_tips_and_does_not_jam() {
     let tipping = answer(&finding(&press.replace("mu = 0.12", "mu = 1.3")));
     assert!(!tipping.contains("jam"), "{tipping}");
     assert!(
-        answer(&model("stick-slip")).contains(" would tip from mu = "),
+        answer(&model("stick-slip")).contains(" It would tip (sole) from mu = "),
         "{}",
         answer(&model("stick-slip"))
     );

@@ -155,7 +155,10 @@ fn of_solve(outcome: Outcome) -> First {
             solved("klepp-2002", &IN_GAP),
             "It moves in a preload gap, lower.rear pressed by its preload alone: it slows down ",
         ),
-        Tip => Line(solved(TIPPING_PRESS, &[("mu", "1.3")]), "No answer: bed tips"),
+        Tip => Line(
+            solved(TIPPING_PRESS, &[("mu", "1.3")]),
+            "No answer: it tips (bed), which only a block slider can show.",
+        ),
         Jam => Line(solved("drawer", &[("mu", "0.7")]), "It jams: no force of push moves it. "),
         SlowsDown => Line(solved(PEG, &[]), "It slows down at "),
         Rests => Line(solved("ladder", &[]), "It holds. The forces at rest are not determined: "),
@@ -186,7 +189,10 @@ fn of_limits(outcome: Outcome) -> First {
             limited("klepp-2002", &IN_GAP, "m=0.9 kg..1.1 kg"),
             "m from 0.9 to 1.1 kg: it moves in a preload gap.",
         ),
-        Tip => Line(limited(TIPPING_PRESS, &[], "mu=1.26..1.3"), "mu from 1.26 to 1.3: bed tips"),
+        Tip => Line(
+            limited(TIPPING_PRESS, &[], "mu=1.26..1.3"),
+            "mu from 1.26 to 1.3: it tips (bed), which only a block slider can show.",
+        ),
         Jam => Line(limited("drawer", &[], "mu=0..1.5"), "It jams from mu = 0.6667 on (the model has 0.3)."),
         SlowsDown => {
             Line(limited(PEG, &[], "mu=0.3..0.5"), "mu from 0.3 to 0.5: it slows down (one solution). ")
@@ -296,7 +302,10 @@ fn of_drive(outcome: Outcome) -> First {
             let pushed = GUIDED_GAP.replace("[coordinates.x]", push);
             Line(driven(&pushed, &[("P", "0 N")]), "push needs 6 N, all of it against friction.")
         }
-        Tip => Line(driven(TIPPING_PRESS, &[("mu", "1.3")]), "bed tips; model it as a block slider to see "),
+        Tip => Line(
+            driven(TIPPING_PRESS, &[("mu", "1.3")]),
+            "It tips (bed), which only a block slider can show. It does not tip below mu = 1.25.",
+        ),
         SlowsDown => Never("a drive prescribes the motion"),
         Rests => Never("a drive that holds what it carries: of what rests by itself `hold` is asked"),
         LiftsOff => Line(
@@ -397,7 +406,7 @@ fn of_sweep(outcome: Outcome) -> First {
         Nothing => Line(swept("drawer", &[], "mu=0.7..1:4", false), "It jams at all 4 points."),
         Several => Line(
             swept("drawer", &[("v", "-0.1 m/s")], "mu=0..1:11", false),
-            "It jams at none of 11 points. 4 of them have several solutions.",
+            "It jams at none of 11 points. Several solutions at 4 of them.",
         ),
         Undetermined => Line(swept(EQUAL_PLAY, &[], "mu=0.1..0.3:3", false), "It jams at none of 3 points."),
         Gap => {
@@ -412,7 +421,7 @@ fn of_sweep(outcome: Outcome) -> First {
         Rests => Line(swept("ladder", &[], "climbed=0..1:5", false), "It holds at 4 of 5 points."),
         Undecided => Line(
             swept("drawer", &VERGE, "Q=1 N..30 N:4", false),
-            "It jams at none of 4 points. 4 of them are not decided.",
+            "It jams at none of 4 points. Not decided at 4 of them.",
         ),
         Interrupted => Line(swept("drawer", &[], "mu=0..1:100001", true), "It jams at none of "),
     }

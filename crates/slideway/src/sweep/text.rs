@@ -52,11 +52,11 @@ impl Sweep {
             tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
         let unsolved = all - tally.solved();
         let [of, ending] =
-            if self.has_branches() { ["of them", ""] } else { ["of the samples", " and are not counted"] };
-        sentences.extend((several > 0).then(|| format!("Several solutions: at {several} {of}.")));
+            if self.has_branches() { ["of them", ""] } else { ["of the samples", " (not counted)"] };
+        sentences.extend((several > 0).then(|| format!("Several solutions at {several} {of}.")));
         let open = tally.with_status(PointStatus::Unknown);
-        sentences.extend((open > 0).then(|| format!("Not decided: {open} {of}.")));
-        sentences.extend((unsolved > 0).then(|| format!("Could not be solved{ending}: {unsolved} {of}.")));
+        sentences.extend((open > 0).then(|| format!("Not decided at {open} {of}.")));
+        sentences.extend((unsolved > 0).then(|| format!("Could not be solved at {unsolved} {of}{ending}.")));
         sentences.join(" ")
     }
 
