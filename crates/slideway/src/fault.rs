@@ -680,7 +680,7 @@ impl FaultKind {
                 "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
             ),
             Self::OneSidedInExcess { .. } => Some(
-                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; of `rests_on` write `corners = 3`, or leave out `one_sided`: four corners share the weight then; `hold` has the ranges of what they carry at rest"
+                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; of `rests_on` write `corners = 3`, or leave out `one_sided`: four corners share the weight then; in the plane `hold` has the ranges of what they carry at rest"
                     .to_owned(),
             ),
             Self::LiftsWithoutInertia { .. } => Some(
@@ -809,7 +809,7 @@ impl FaultKind {
     fn hint_in_space(&self) -> Option<&'static str> {
         Some(match self {
             Self::NotCarried { .. } => {
-                "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`"
+                "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`; of a flat drawing leave out every third coordinate"
             }
             Self::CarriedTwice { .. } => {
                 "say which of them carry less: of hinges `carries = \"z\"` (a ball), `\"tilt\"` (a cylinder) or `\"nothing\"`, of sliding joints fewer of `[\"z\", \"roll\", \"pitch\"]`"

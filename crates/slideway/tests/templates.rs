@@ -229,8 +229,7 @@ fn carriage() {
     // Its effort stays finite, so that drive says it in words: 0.25 / 0.2 = 1.25 times.
     let model = model("carriage", &[("L", 0.06), ("a", 0.12), ("mu", 0.2)]);
     let report = drive(&model, &DriveOptions::default()).unwrap();
-    let told =
-        "It would jam from mu = 0.25 (1.25 times this friction), and the force does not grow beforehand.";
+    let told = "It would jam from mu = 0.25 (1.25 times this friction), suddenly: up to there the force stays finite.";
     assert!(report.conclusion.iter().any(|sentence| sentence == told), "{:?}", report.conclusion);
     assert_locks_at("carriage", 0.25, &[("L", 0.06), ("a", 0.12)]);
 }

@@ -279,7 +279,7 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     let grows = |blow_ups: &Vec<BlowUp>| blow_ups.iter().any(|one| precise(one.at) == precise(factor));
     let is_sudden = direction.blow_ups.as_ref().is_some_and(|blow_ups| !grows(blow_ups));
     let warning = if is_sudden {
-        format!(", and the {} does not grow beforehand", kind_of_all(report))
+        format!(", suddenly: up to there the {} stays finite", kind_of_all(report))
     } else {
         String::new()
     };

@@ -30,6 +30,9 @@ pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind,
     )
 }
 
+/// Said where tipping counts, which less friction may cause as well.
+const MORE_FRICTION: &str = "The factor is for more friction. With less it may tip, too: ask `limits`.";
+
 impl Words<'_> {
     pub(super) fn conclusion(&self) -> Vec<String> {
         let mut sentences = vec![self.answer()];
@@ -40,6 +43,9 @@ impl Words<'_> {
         }
         if !self.driven && report.against == MarginKind::Locking && report.present.is != SampleKind::Finite {
             sentences.push(NO_DRIVE.to_owned());
+        }
+        if report.may_tip && report.against == MarginKind::Locking {
+            sentences.push(MORE_FRICTION.to_owned());
         }
         let report = self.report;
         let ranges: Vec<([f64; 2], &str)> =

@@ -369,7 +369,7 @@ fn load_report(
         name: load.name.clone(),
         unit: load.unit,
         factor: load.nominal,
-        force: load.resultant(),
+        force: load.resultant(setup.mechanism.bodies.len()),
         self_locking: held.found.last().is_some_and(|last| last.greatest.is_none()),
         beyond: beyond_held(setup, &held.found, work.part(1, 2)),
         held: held.found,

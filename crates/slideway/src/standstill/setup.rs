@@ -51,10 +51,12 @@ pub(crate) struct VariedLoad {
 }
 
 impl VariedLoad {
-    /// Its resultant at a factor of one (N); none of a drive, and where its forces balance.
-    pub(super) fn resultant(&self) -> Option<f64> {
-        let [x, y] = [0, 1].map(|axis| self.forces.iter().skip(axis).step_by(3).sum::<f64>());
-        let force = x.hypot(y);
+    /// Its resultant at a factor of one (N) on so many bodies; none of a drive, and where its forces balance.
+    pub(super) fn resultant(&self, bodies: usize) -> Option<f64> {
+        // Forces in the plane, and along z at the first place of each three behind them.
+        let sum = |from: usize, to: usize| self.forces.as_slice()[from..to].iter().step_by(3).sum::<f64>();
+        let (in_plane, all) = (3 * bodies, self.forces.len());
+        let force = sum(0, in_plane).hypot(sum(1, in_plane)).hypot(sum(in_plane, all));
         (self.unit.is_empty() && force != 0.0).then_some(force)
     }
 }

@@ -1039,6 +1039,9 @@ fn what_is_held_in_space_is_what_has_forces_in_equilibrium() {
         let report = hold(&Model::parse(&model).unwrap(), &HoldOptions::default().load("push")).unwrap();
         let ranges = &report.load.as_ref().unwrap().held;
         assert!(report.is_decided(), "{}", report.text(Style::PLAIN));
+        let of_load = hold(&Model::parse(&model).unwrap(), &HoldOptions::default().load("f")).unwrap();
+        let (force, expected) = (of_load.load.unwrap().force.unwrap(), Vector3::from(carriage.load.1).norm());
+        assert!((force - expected).abs() < 1e-12 * expected, "{force} {expected}");
         let ends: Vec<f64> =
             ranges.iter().flat_map(|range| [range.least, range.greatest]).flatten().collect();
         for step in 0..8 {
