@@ -79,12 +79,12 @@ impl Painter<'_> {
             self.line(Class::Leader, vec![middle, face]);
         }
         let direction = slide.guide.across * (forces.normal.signum() * slide.action());
-        let in_plane = self.mechanism.contacts[contact.index()].lean.map_or(1.0, |[cos, _]| cos);
+        let [in_plane, along_z] = self.mechanism.contacts[contact.index()].normal_across();
         let length = forces.normal.abs() * scale * in_plane;
         // It presses from outside what it acts on if that is the inner part, else from inside.
         let is_on_inner = slide.around == (slide.block_frame == Frame::Ground);
         let text = self.size_of_force(forces.normal, forces.spread[0]);
-        let out = self.mechanism.contacts[contact.index()].lean.map_or(0.0, |[_, sin]| sin) * forces.normal;
+        let out = along_z * forces.normal;
         if in_plane == 0.0 {
             return self.out_of_drawing(Class::Reaction, face, out * slide.action() > 0.0, text);
         }
@@ -145,7 +145,7 @@ impl Painter<'_> {
             let Some(acceleration) = self.states.contacts[index].gap_acceleration else { continue };
             let Some(slide) = self.slide(self.mechanism.contacts[index].joint) else { continue };
             let from = self.face(&slide, ContactId(index), 1.0);
-            let in_plane = self.mechanism.contacts[index].lean.map_or(1.0, |[cos, _]| cos);
+            let [in_plane, _] = self.mechanism.contacts[index].normal_across();
             let to = from + slide.guide.across * (OPENING * slide.action() * in_plane);
             if in_plane != 0.0 {
                 self.scene.add(Class::Opening, Shape::Arrow { from, to });

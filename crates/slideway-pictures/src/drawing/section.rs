@@ -107,15 +107,16 @@ fn direction(across: Vector2<f64>) -> Point {
     Point::new(across.x, -across.y)
 }
 
-impl Painter<'_> {
+impl<'a> Painter<'a> {
     /// The contacts of the block, each with its place.
-    fn in_section(&self, section: &Section<'_>) -> Vec<(usize, &Contact, Place)> {
+    fn in_section(&self, section: &Section<'_>) -> Vec<(usize, &'a Contact, Place)> {
+        let mechanism = self.mechanism;
         let contacts = section.slider.contacts.iter();
         contacts
             .map(|&id: &ContactId| {
-                let geometry = self.configuration.contact(self.mechanism, id);
+                let geometry = self.configuration.contact(mechanism, id);
                 let place = section.place(geometry.point, geometry.z);
-                (id.index(), &self.mechanism.contacts[id.index()], place)
+                (id.index(), &mechanism.contacts[id.index()], place)
             })
             .collect()
     }
@@ -163,11 +164,7 @@ impl Painter<'_> {
             self.area(Class::BodyEdge, corners.clone());
             self.area(Class::Body, corners);
         }
-        let contacts: Vec<(usize, Contact, Place)> = self
-            .in_section(section)
-            .into_iter()
-            .map(|(k, contact, place)| (k, contact.clone(), place))
-            .collect();
+        let contacts = self.in_section(section);
         for (_, contact, place) in &contacts {
             self.faces_of(section, contact, section.drawn(*place));
         }
@@ -199,7 +196,7 @@ impl Painter<'_> {
 
     /// The pad of a contact, and the faces on which it may press.
     fn faces_of(&mut self, section: &Section<'_>, contact: &Contact, at: Point) {
-        let [cos, sin] = contact.lean.unwrap_or([1.0, 0.0]);
+        let [cos, sin] = contact.normal_across();
         let normal = direction(Vector2::new(cos, sin));
         let across = Point::new(-normal.y, normal.x);
         let corner = |one: f64, other: f64| at + normal * (one * 0.5 * PAD) + across * (other * PAD);
@@ -224,7 +221,7 @@ impl Painter<'_> {
     fn force_in_section(&mut self, section: &Section<'_>, (k, contact): (usize, &Contact), at: Point) {
         let Some(state) = self.states.contacts.get(k).copied() else { return };
         let name = contact.name.rsplit_once('.').map_or(&*contact.name, |(_, end)| end).to_owned();
-        let [cos, sin] = contact.lean.unwrap_or([1.0, 0.0]);
+        let [cos, sin] = contact.normal_across();
         let normal = direction(Vector2::new(cos, sin));
         if let Some(acceleration) = state.gap_acceleration {
             self.circle(Class::Opening, at, 4.0);

@@ -5,7 +5,7 @@ use super::report::{
     EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{JointMode, OnFace, SHOWN_BY, Status, Verdict, it_tips, it_would_tip, spaced};
+use crate::report::{JointMode, OnFace, SHOWN_BY, Status, Verdict, capital, it_tips, it_would_tip, spaced};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -73,7 +73,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
                 .iter()
                 .any(|word| clause.starts_with(word)) =>
         {
-            clause[..1].to_uppercase() + &clause[1..]
+            capital(&clause)
         }
         Sense::Model => clause,
     };

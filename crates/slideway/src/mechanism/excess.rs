@@ -133,7 +133,7 @@ impl Mechanism {
                     let normal = |id: &ContactId| {
                         let contact = &self.contacts[id.index()];
                         let normal = rot90(slider.tangent);
-                        let [cos, sin] = contact.lean.unwrap_or([1.0, 0.0]);
+                        let [cos, sin] = contact.normal_across();
                         let mut row = self.normal_row(slider, (contact.position(slider), normal * cos), 1);
                         let place = (contact.position(slider), slider.z + contact.aside[1]);
                         self.displace_out(&mut row, slider.block, place, (normal * cos, sin));

@@ -292,6 +292,11 @@ impl<T: Real> Contact<T> {
         !self.is_frictionless() || self.mu_static != [T::zero(); 2]
     }
 
+    /// Cosine and sine of the angle of its normal from n towards z.
+    pub fn normal_across(&self) -> [T; 2] {
+        self.lean.unwrap_or([T::one(), T::zero()])
+    }
+
     /// The part with which it travels, and the one on whose line it stays: the guide, with which the block turns; of a corner of the
     /// guide that may lift off the face of the block.
     pub(crate) fn frames(&self, slider: &Slider<T>) -> [Frame; 2] {

@@ -37,6 +37,11 @@ impl<T: Real> Mechanism<T> {
         !slider.apart.is_empty() || (!slider.contacts.is_empty() && contacts.all(leaves))
     }
 
+    /// Returns the same of a joint; `false` of one that does not slide.
+    pub(crate) fn leaves_its_face(&self, joint: JointId) -> bool {
+        self.slider(joint).is_some_and(|slider| self.may_lift_off(slider))
+    }
+
     /// The joints that do not slip in the state.
     pub(crate) fn sticking(&self) -> impl Iterator<Item = (JointId, &Slider<T>)> {
         self.sliders().filter(|(_, slider)| slider.sticks)

@@ -3,7 +3,7 @@
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
     Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
-    SpeedChange, Status, Verdict, it_would_tip,
+    SpeedChange, Status, Verdict, capital, it_would_tip,
 };
 use crate::units::brief;
 
@@ -431,7 +431,7 @@ fn safe_up_to(any: &str, times: &str) -> String {
 
 /// A clause as a sentence.
 fn sentence(clause: &str) -> String {
-    clause[..1].to_uppercase() + &clause[1..] + "."
+    capital(clause) + "."
 }
 
 /// The end of a sentence, and the contacts that lift off in a solution: ". tip lifts off.", of a block that keeps another

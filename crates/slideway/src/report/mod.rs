@@ -34,7 +34,7 @@ pub use sharing::{Elasticity, LoadSharing, PressFit, StiffnessRatios};
 pub(crate) use speed::NO_DRIVE;
 pub use speed::{FromRest, SpeedChange, Stopping};
 pub use style::Style;
-pub(crate) use text::{count, ends_in_words, joints_in_words, spaced};
+pub(crate) use text::{capital, count, ends_in_words, joints_in_words, spaced};
 pub use text::{followed, of_contacts};
 pub use tipping::Tipping;
 pub(crate) use tipping::{SHOWN_BY, it_tips, it_would_tip, without_solution};

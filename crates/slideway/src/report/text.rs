@@ -694,6 +694,12 @@ fn power_of_ten_above(residual: f64) -> String {
     format!("1e{}", exponent.max(-15.0))
 }
 
+/// Words as the beginning of a sentence.
+pub(crate) fn capital(words: &str) -> String {
+    let mut letters = words.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// "+-+" as "+ - +".
 pub(crate) fn spaced(pattern: &str) -> String {
     let signs: Vec<String> = pattern.chars().map(|sign| sign.to_string()).collect();

@@ -1,6 +1,6 @@
 //! Parameters that are known within bounds, in sentences.
 
-use super::text::count;
+use super::text::{capital, count};
 use super::{CountStretch, SolveReport, UncertainParameter, Uncertainty};
 
 impl SolveReport {
@@ -88,9 +88,4 @@ fn solutions(number: usize) -> String {
         1 => "one solution".to_owned(),
         several => format!("{several} solutions"),
     }
-}
-
-fn capital(words: &str) -> String {
-    let mut letters = words.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

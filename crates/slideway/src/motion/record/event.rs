@@ -146,12 +146,7 @@ impl Words<'_> {
             }
             Cause::Tips(joint) => format!("{} begins to tip in its guide", self.name(*joint)),
             Cause::OverlapVanishes(joint) => format!("{} leaves its guide", self.name(*joint)),
-            Cause::TravelLimit { joint, .. }
-                if self
-                    .mechanism
-                    .slider(*joint)
-                    .is_some_and(|slider| self.mechanism.may_lift_off(slider)) =>
-            {
+            Cause::TravelLimit { joint, .. } if self.mechanism.leaves_its_face(*joint) => {
                 format!("{} reaches the end of its face", self.name(*joint))
             }
             Cause::TravelLimit { joint, greatest } => {

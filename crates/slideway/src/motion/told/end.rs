@@ -15,9 +15,7 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
     let joint = |joint: &JointId| &mechanism.joints[joint.index()].name;
     match &history.end {
         End::Finished => finished(history, &time),
-        End::TravelLimit(id)
-            if mechanism.slider(*id).is_some_and(|slider| mechanism.may_lift_off(slider)) =>
-        {
+        End::TravelLimit(id) if mechanism.leaves_its_face(*id) => {
             format!("It ends at {time}: {} reaches the end of its face.", moving(mechanism, *id))
         }
         End::TravelLimit(id) => format!(
