@@ -25,6 +25,8 @@ pub(crate) struct Input {
     bytes: Vec<u8>,
     /// The changes of the model by the command line.
     pub(crate) settings: Settings,
+    /// What is going to be varied, so that its own value does not matter.
+    varied: Vec<String>,
     /// Settings that could not be read.
     malformed: Vec<Fault>,
     /// In which units numbers are to be shown, if not as the model says.
@@ -44,7 +46,16 @@ impl Input {
         let path = arguments.file.as_path();
         let (settings, malformed) = arguments.settings();
         let (units, strict) = (arguments.units(), arguments.strict);
-        let input = Self { name: name(path), bytes: Vec::new(), settings, malformed, units, strict, color };
+        let input = Self {
+            name: name(path),
+            bytes: Vec::new(),
+            settings,
+            varied: Vec::new(),
+            malformed,
+            units,
+            strict,
+            color,
+        };
         match read_bytes(path, SIZE_LIMIT)? {
             Some(bytes) => Ok(Self { bytes, ..input }),
             None => Err(input.refused(Fault::general(FaultKind::TooLarge { limit: SIZE_LIMIT }).into())),
@@ -54,7 +65,7 @@ impl Input {
     /// It for a question that varies what these texts begin with, as in `mu=0..1`.
     pub(crate) fn varying<'a>(mut self, texts: impl IntoIterator<Item = &'a String>) -> Self {
         let names = texts.into_iter().map(|text| text.split('=').next().unwrap_or(text).trim());
-        self.settings = names.fold(self.settings, Settings::varying);
+        self.varied.extend(names.map(str::to_owned));
         self
     }
 
@@ -175,7 +186,7 @@ impl Input {
     pub(crate) fn model_without_warnings(&self) -> Result<Model, Failure> {
         let model = Model::parse_bytes(&self.bytes);
         let with_settings = match model {
-            Ok(model) => model.with(&self.settings).map_err(|mut faults| {
+            Ok(model) => model.with_varied(&self.settings, &self.varied).map_err(|mut faults| {
                 faults.append(model.warnings_of(&self.settings));
                 faults
             }),

@@ -257,6 +257,26 @@ fn what_cannot_be_merged_is_told() {
     assert!(refused.code == 2 && refused.stderr.contains("would overwrite its input"), "{}", refused.stderr);
 }
 
+/// The own value of what is varied is not allowed beside a greater kinetic coefficient, in one run and in shards.
+#[test]
+fn what_is_varied_has_no_value_of_its_own_in_shards() {
+    let folder = TempDir::new().unwrap();
+    let results = folder.path().join("results");
+    let sweep = [
+        "sweep",
+        "models/frictional-oscillator.toml",
+        "--set",
+        "mu=0.275",
+        "--vary",
+        "mu_static=0.3..0.4:11",
+    ];
+    for number in ["1/2", "2/2", "2/2"] {
+        assert_eq!(shard(&sweep, number, &results).code, 0);
+    }
+    let [merged, whole] = [merge(&results, &[]), slideway(&sweep)];
+    assert_eq!((merged.code, merged.stdout), (whole.code, whole.stdout));
+}
+
 #[test]
 fn a_plot_of_merged_shards_is_that_of_one_run() {
     let folder = TempDir::new().unwrap();

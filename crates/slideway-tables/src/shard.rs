@@ -38,7 +38,8 @@ impl ShardedSweep {
     /// # Errors
     /// As [`Sweep::new`].
     pub fn sweep(&self, breakpoints: Breakpoints) -> Result<Sweep, Faults> {
-        let model = Model::parse(&self.metadata.model)?.with(&self.settings)?;
+        let model =
+            Model::parse(&self.metadata.model)?.with_varied(&self.settings, &self.options.points.names())?;
         Sweep::with_breakpoints(&model, &self.options, breakpoints)
     }
 }

@@ -18,9 +18,6 @@ const TIME: &str = "time";
 #[serde(transparent)]
 pub struct Settings {
     entries: Vec<Setting>,
-    /// What has no value of its own.
-    #[serde(skip)]
-    varied: Vec<String>,
 }
 
 /// One change.
@@ -87,14 +84,6 @@ impl Settings {
         self.with(Setting::new(SettingKind::Time, TIME, value))
     }
 
-    /// Says that the parameter of this name is going to be varied, so that its own value does not matter: where a friction
-    /// coefficient is not allowed beside the others, the nearest one that is allowed takes its place, with a warning.
-    #[must_use]
-    pub fn varying(mut self, name: &str) -> Self {
-        self.varied.push(name.to_owned());
-        self
-    }
-
     /// Adds a change.
     #[must_use]
     pub fn with(mut self, setting: Setting) -> Self {
@@ -115,14 +104,24 @@ impl Model {
     /// Every unknown name, expression that cannot be read, dimension that has changed, and circle of
     /// parameters, each with its place in the text of the setting.
     pub fn with(&self, settings: &Settings) -> Result<Self, Faults> {
+        self.with_varied(settings, &[])
+    }
+
+    /// As [`Self::with`], where the parameters of these names are going to be varied, so that their own values do not matter:
+    /// where a friction coefficient is not allowed beside the others, the nearest one that is allowed takes its place, with a
+    /// warning.
+    ///
+    /// # Errors
+    /// As [`Self::with`].
+    pub fn with_varied(&self, settings: &Settings, varied: &[String]) -> Result<Self, Faults> {
         let numbered = settings.entries().iter().enumerate();
         let changes = numbered.map(|(index, setting)| (setting, Source::Setting(index)));
-        let mut model = self.changed(changes, &settings.varied)?;
+        let mut model = self.changed(changes, varied)?;
         model.doubts.extend(self.bare_settings(settings));
         Ok(model)
     }
 
-    /// It with these changes, each with the text in which its faults have their places, and with [`Settings::varying`].
+    /// It with these changes, each with the text in which its faults have their places, and as in [`Self::with_varied`].
     pub(super) fn changed<'a>(
         &self,
         changes: impl Iterator<Item = (&'a Setting, Source)>,

@@ -82,6 +82,14 @@ impl SweepPoints {
         }
     }
 
+    /// The names of the quantities that vary.
+    pub fn names(&self) -> Vec<String> {
+        match self {
+            Self::Grid(axes) => axes.iter().map(|axis| axis.name.clone()).collect(),
+            Self::Samples(_, axes) => axes.iter().map(|axis| axis.name.clone()).collect(),
+        }
+    }
+
     /// Whether they are a grid over one quantity.
     pub fn is_line(&self) -> bool {
         matches!(self, Self::Grid(axes) if axes.len() == 1)

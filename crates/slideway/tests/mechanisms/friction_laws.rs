@@ -186,11 +186,11 @@ fn what_is_varied_has_no_value_of_its_own() {
     let model = Model::parse(oscillator.text).unwrap();
     let more = Settings::default().parameter("mu", 0.275);
     assert!(model.with(&more).is_err());
-    let varied = model.with(&more.clone().varying("mu_static")).unwrap();
+    let varied = model.with_varied(&more, &["mu_static".to_owned()]).unwrap();
     let other = model.with(&more.parameter("mu_static", 0.275)).unwrap();
     assert_eq!(varied.constants().unwrap(), other.constants().unwrap());
     // What is allowed keeps its value, and what is no coefficient is no help.
-    let same = model.with(&Settings::default().varying("mu_static")).unwrap();
+    let same = model.with_varied(&Settings::default(), &["mu_static".to_owned()]).unwrap();
     assert_eq!(same.constants().unwrap(), model.constants().unwrap());
-    assert!(model.with(&Settings::default().parameter("mu", 0.275).varying("k")).is_err());
+    assert!(model.with_varied(&Settings::default().parameter("mu", 0.275), &["k".to_owned()]).is_err());
 }
