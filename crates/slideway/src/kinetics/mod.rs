@@ -552,12 +552,7 @@ impl<T: Real> Builder<'_, T> {
     fn matrix(&self, constraints: &[ConstraintRow<T>], coordinates: &[ConstraintRow<T>]) -> DMatrix<T> {
         let size = self.layout.len();
         let mut matrix = DMatrix::zeros(size, size);
-        for (index, body) in self.mechanism.bodies.iter().enumerate() {
-            matrix[(3 * index, 3 * index)] = body.mass;
-            matrix[(3 * index + 1, 3 * index + 1)] = body.mass;
-            matrix[(3 * index + 2, 3 * index + 2)] = body.moment_of_inertia;
-        }
-        self.inertia_in_space(&mut matrix);
+        each_inertia(self.mechanism, self.configuration, |row, column, value| matrix[(row, column)] += value);
         let first = self.layout.accelerations;
         for (index, row) in constraints.iter().enumerate() {
             for &(column, value) in &row.entries {
@@ -576,35 +571,6 @@ impl<T: Real> Builder<'_, T> {
             }
         }
         matrix
-    }
-
-    /// The products of inertia of each body in its pose.
-    fn products(&self, body: usize) -> Option<(usize, Vector2<T>)> {
-        let (first, _) = self.mechanism.out_of_plane(Frame::Body(BodyId(body)))?;
-        let products = self.mechanism.space.as_ref()?.bodies[body].products;
-        Some((first, self.configuration.poses[body].turned(products.into())))
-    }
-
-    /// The inertia of accelerations out of the plane, and what couples them to those in it (S1). Moments of inertia that are
-    /// not known are left out: no answer but attainability depends on them.
-    fn inertia_in_space(&self, matrix: &mut DMatrix<T>) {
-        for (index, body) in self.mechanism.bodies.iter().enumerate() {
-            let Some((first, products)) = self.products(index) else { return };
-            matrix[(first, first)] = body.mass;
-            for (axis, product) in products.iter().enumerate() {
-                matrix[(first + 1 + axis, 3 * index + 2)] = -*product;
-                matrix[(3 * index + 2, first + 1 + axis)] = -*product;
-            }
-            let tilt = self.mechanism.space.as_ref().and_then(|space| space.bodies[index].tilt);
-            let Some([about_x, about_y]) = tilt else { continue };
-            // In the axes of the drawing: turned with the body.
-            let [x, y] =
-                [Vector2::x(), Vector2::y()].map(|axis| self.configuration.poses[index].turned(axis));
-            for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                matrix[(first + 1 + row, first + 1 + column)] =
-                    about_x * x[row] * x[column] + about_y * y[row] * y[column];
-            }
-        }
     }
 
     /// Replaces the rows of the contacts that are cut by N = 0, and gives them.
@@ -632,12 +598,7 @@ impl<T: Real> Builder<'_, T> {
         for wrench in applied {
             wrench.add_to(self.mechanism, self.configuration, |row, value| load[row] += value);
         }
-        for index in 0..self.mechanism.bodies.len() {
-            let Some((first, products)) = self.products(index) else { break };
-            let spin = self.configuration.velocities[index].angular.square();
-            load[first + 1] -= products.y * spin;
-            load[first + 2] += products.x * spin;
-        }
+        each_spin(self.mechanism, self.configuration, |row, value| load[row] += value);
         let first = self.layout.accelerations;
         for (index, row) in constraints.iter().enumerate() {
             load[first + index] = row.right_hand_side;
@@ -734,6 +695,60 @@ impl<T: Real> Mechanism<T> {
         let JointKind::Hinge([first, second]) = &self.joints[joint.index()].kind else { return Vec::new() };
         vec![Wrench::couple(first.frame, couple), Wrench::couple(second.frame, -couple)]
     }
+}
+
+/// Tells the inertia of all bodies by rows and columns: masses and moments of inertia, and in space those of accelerations out of
+/// the plane and what couples them to those in it (S1). Moments of inertia that are not known are left out: no answer but
+/// attainability depends on them.
+pub(crate) fn each_inertia<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    mut tell: impl FnMut(usize, usize, T),
+) {
+    for (index, body) in mechanism.bodies.iter().enumerate() {
+        for (axis, inertia) in [body.mass, body.mass, body.moment_of_inertia].into_iter().enumerate() {
+            tell(3 * index + axis, 3 * index + axis, inertia);
+        }
+        let Some((first, products)) = products(mechanism, configuration, index) else { continue };
+        tell(first, first, body.mass);
+        for (axis, product) in products.iter().enumerate() {
+            tell(first + 1 + axis, 3 * index + 2, -*product);
+            tell(3 * index + 2, first + 1 + axis, -*product);
+        }
+        let tilt = mechanism.space.as_ref().and_then(|space| space.bodies[index].tilt);
+        let Some([about_x, about_y]) = tilt else { continue };
+        // In the axes of the drawing: turned with the body.
+        let [x, y] = [Vector2::x(), Vector2::y()].map(|axis| configuration.poses[index].turned(axis));
+        for (row, column) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+            let value = about_x * x[row] * x[column] + about_y * y[row] * y[column];
+            tell(first + 1 + row, first + 1 + column, value);
+        }
+    }
+}
+
+/// Tells the couples by which bodies that spin pull out of the plane (S1).
+pub(crate) fn each_spin<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    mut tell: impl FnMut(usize, T),
+) {
+    for (index, velocity) in configuration.velocities.iter().enumerate() {
+        let Some((first, products)) = products(mechanism, configuration, index) else { return };
+        let spin = velocity.angular.square();
+        tell(first + 1, -products.y * spin);
+        tell(first + 2, products.x * spin);
+    }
+}
+
+/// The index of a body's acceleration along z, and its products of inertia in its pose.
+fn products<T: Real>(
+    mechanism: &Mechanism<T>,
+    configuration: &Configuration<T>,
+    body: usize,
+) -> Option<(usize, Vector2<T>)> {
+    let (first, _) = mechanism.out_of_plane(Frame::Body(BodyId(body)))?;
+    let products = mechanism.space.as_ref()?.bodies[body].products;
+    Some((first, configuration.poses[body].turned(products.into())))
 }
 
 /// The friction force `friction` of a contact as forces on block and guide, acting at the face that is

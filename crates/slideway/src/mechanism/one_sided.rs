@@ -119,7 +119,12 @@ impl Mechanism {
         let mut whole = self.clone();
         for joint in &mut whole.joints {
             let JointKind::Slider(slider) = &mut joint.kind else { continue };
-            for contact in std::mem::take(&mut slider.apart) {
+            let apart = std::mem::take(&mut slider.apart);
+            // The overlap of a block is that of its first two contacts.
+            if apart.is_empty() {
+                continue;
+            }
+            for contact in apart {
                 slider.contacts.push(ContactId(whole.contacts.len()));
                 whole.contacts.push(contact);
             }

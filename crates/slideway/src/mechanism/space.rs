@@ -48,6 +48,11 @@ impl<T: Real> Mechanism<T> {
         Some((3 * (self.bodies.len() + body.index()), space.bodies[body.index()].z))
     }
 
+    /// The body to which an acceleration of the bodies belongs, by its number.
+    pub(crate) fn body_of_acceleration(&self, acceleration: usize) -> usize {
+        acceleration / 3 % self.bodies.len()
+    }
+
     /// Whether an acceleration of the bodies is one of rotation.
     pub(crate) fn is_rotation(&self, acceleration: usize) -> bool {
         if acceleration < 3 * self.bodies.len() {

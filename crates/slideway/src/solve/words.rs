@@ -88,7 +88,7 @@ fn in_cross_section(
     let named = |contacts: &[&Contact], between: &str| {
         contacts.iter().map(|contact| contact.place_in_joint()).collect::<Vec<_>>().join(between)
     };
-    for (verb, contacts) in [("rests on", &rests), ("hangs from", &hangs), ("lifts off at", &lifts)] {
+    for (verb, contacts) in [("resting on", &rests), ("hanging from", &hangs), ("lifting off at", &lifts)] {
         words.extend((!contacts.is_empty()).then(|| format!("{verb} {}", named(contacts, ", "))));
     }
     let differ = |distance: &dyn Fn(&Contact) -> f64| {

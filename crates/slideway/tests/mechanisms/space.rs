@@ -8,6 +8,7 @@ use slideway::fault::FaultKind;
 use slideway::gallery;
 use slideway::limits::{LimitsOptions, limits};
 use slideway::model::{Model, Settings};
+use slideway::motion::{End, History, SimulateOptions, simulate};
 use slideway::report::{Proof, Report, SolveReport, Style};
 use slideway::solve::{SolveOptions, solve, solve_with};
 use slideway::standstill::{HoldOptions, Range, hold};
@@ -922,7 +923,7 @@ fn a_drawer_tips_about_the_line_of_its_front_corners() {
     let [tips] = report.solutions.as_slice() else { panic!("{}", text(&report)) };
     let mode = &tips.joints[0].mode;
     assert!(
-        mode.ends_with("lifts off at rear_middle: it tips about the line front_left - front_right"),
+        mode.ends_with("lifting off at rear_middle: it tips about the line front_left - front_right"),
         "{mode}"
     );
     let [_, about_x, about_y] = tips.bodies[0].out_of_plane.unwrap();
@@ -1076,4 +1077,149 @@ fn what_carries_nothing_without_friction_leaves_stability_as_it_is() {
     assert_eq!((free.verdict, free.reason), (pressed.verdict, pressed.reason));
     let rough = verdict(&GUIDE.replace("\"90 deg\", mu = 0 }", "\"90 deg\" }"));
     assert_eq!(rough.reason.as_deref(), Some("nothing presses guide.key"));
+}
+
+/// Planar mechanisms with a weight along z that joints without friction carry move as in the plane.
+#[test]
+fn planar_mechanisms_in_space_move_alike() {
+    let mut compared = Vec::new();
+    for entry in gallery::MODELS {
+        let Some(spatial) = in_space(entry.text) else { continue };
+        let mut options = SimulateOptions::new(0.2);
+        options.longest_step = Some(0.01);
+        let moved = |text: &str| simulate(&Model::parse(text).ok()?, &options).ok();
+        let (Some(planar), Some(found)) = (moved(entry.text), moved(&spatial)) else { continue };
+        assert_eq!(found.end, planar.end, "{}", entry.name);
+        assert!((found.stop() - planar.stop()).abs() < 1e-8, "{}", entry.name);
+        let places = |history: &History| -> Vec<[f64; 2]> {
+            let mut reader = history.reader();
+            let configuration = reader.configuration(history.stop() * 0.999).unwrap();
+            let poses = configuration.poses.iter().zip(&configuration.velocities);
+            poses.flat_map(|(pose, velocity)| [pose.position.into(), velocity.linear.into()]).collect()
+        };
+        for (one, other) in places(&planar).into_iter().zip(places(&found)) {
+            let difference = (one[0] - other[0]).hypot(one[1] - other[1]);
+            assert!(difference < 1e-6 * (1.0 + one[0].hypot(one[1])), "{}: {one:?} {other:?}", entry.name);
+        }
+        compared.push(entry.name);
+    }
+    assert!(compared.len() >= 8, "{compared:?}");
+}
+
+/// A block of 0.4 kg in a radial slot of a table that turns with 6 rad/s: side faces guide it, and it lies on three pads.
+const TURNTABLE: &str = r#"
+gravity = [0, 0, -9.81]
+[points]
+O = [0, 0]
+M = [0.3, 0]
+C = [0.3, 0, 0.004]
+[bodies.table]
+points = ["O", "M"]
+mass = 5
+moment_of_inertia = 0.5
+centre_of_mass = "O"
+[bodies.block]
+points = ["C"]
+mass = 0.4
+moment_of_inertia = 1e-3
+products_of_inertia = [2e-5, -3e-5]
+centre_of_mass = "C"
+[joints.pivot]
+type = "hinge"
+between = ["table.O", "ground.O"]
+[joints.slot]
+type = "block_slider"
+block = "block"
+guide = "table"
+at = "M"
+along = 0
+length = 0.1
+mu = 0.2
+supports.left = { at = 0, aside = 0.06, normal = "90 deg", mu = 0.1 }
+supports.front_right = { at = 0.05, aside = -0.06, normal = "90 deg", mu = 0.1 }
+supports.rear_right = { at = -0.05, aside = -0.06, normal = "90 deg", mu = 0.1 }
+[drives.motor]
+coordinate = "phi"
+torque = { body = "table" }
+[coordinates.phi]
+rotation = "table"
+rate = 6
+[coordinates.r]
+slide = "slot"
+rate = 0.4
+"#;
+
+/// As long as all pads carry, `r'' = omega^2 r - 2 mu omega r' - mu_pads g`: the weight rubs on the pads, Coriolis' force on the
+/// side of the slot. With `lambda = omega (-mu +- sqrt(1 + mu^2))` and `r_0 = mu_pads g/omega^2` that is
+/// `r - r_0 = A exp(lambda_1 t) + B exp(lambda_2 t)`.
+#[test]
+fn a_block_on_a_turntable_follows_the_closed_form() {
+    let model = Model::parse(TURNTABLE).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(0.15)).unwrap();
+    assert_eq!(history.end, End::Finished);
+    assert_eq!(history.phases.len(), 1);
+    let (omega, mu) = (6.0_f64, 0.2_f64);
+    let root = (1.0 + mu * mu).sqrt();
+    let [first, second] = [omega * (root - mu), -omega * (root + mu)];
+    let middle = 0.1 * 9.81 / (omega * omega);
+    let (start, rate) = (0.3 - middle, 0.4);
+    let b = (first * start - rate) / (first - second);
+    let a = start - b;
+    let mut reader = history.reader();
+    for time in [0.05, 0.1, 0.15] {
+        let expected = middle + a * (first * time).exp() + b * (second * time).exp();
+        let found = reader.configuration(time).unwrap().poses[1].position.norm();
+        assert!((found - expected).abs() < 1e-8, "{time}: {found} {expected}");
+    }
+    assert!(history.energy_error < 1e-10 * history.energy_scale);
+}
+
+/// In the course of a motion forces, efforts and accelerations are those that `solve` has in that state.
+#[test]
+fn forces_of_a_motion_in_space_are_those_of_its_states() {
+    let model = Model::parse(&TURNTABLE.replace("0.004", "0.02")).unwrap();
+    let history = simulate(&model, &SimulateOptions::new(0.4)).unwrap();
+    assert!(history.phases.len() > 1, "a pad changes its face");
+    let mut reader = history.reader();
+    for time in [0.03, 0.2, 0.39] {
+        let sample = reader.at(time).unwrap();
+        let [q, rates] = [&sample.configuration.coordinates, &sample.configuration.rates];
+        let names = ["phi", "r"].into_iter().enumerate();
+        let settings = names.fold(Settings::default(), |settings, (index, name)| {
+            settings.position(name, q[index]).rate(name, rates[index])
+        });
+        let report = solve(&model.with(&settings).unwrap()).unwrap();
+        let [solution] = report.solutions.as_slice() else { panic!("{}", text(&report)) };
+        let scale = solution.contacts.iter().map(|one| one.normal_force.abs()).fold(0.0, f64::max);
+        for (one, found) in solution.contacts.iter().zip(&sample.contacts) {
+            assert!(close(found.normal_force, one.normal_force, scale), "{time}, {}", one.name);
+        }
+        assert!(close(sample.efforts[0], solution.drives[0].effort, scale), "{time}");
+    }
+}
+
+/// Pulled ever faster the drawer tips about the line of its front corners, where its motion leaves the plane: until then the rear
+/// corner carries what `solve` says, and at the end nothing.
+#[test]
+fn a_motion_ends_where_a_drawer_tips() {
+    let drawer = drawer_on_three_corners();
+    let drive = "[drives.pull]";
+    assert!(drawer.contains(drive));
+    let faster = drawer
+        .replace("parameters.c = 0.03", "parameters.c = 0.3")
+        .replace(drive, "[drives.pull]\nacceleration = \"20 m/s^3*t\"");
+    let history = simulate(&Model::parse(&faster).unwrap(), &SimulateOptions::new(2.0)).unwrap();
+    let End::OutOfPlane(_) = history.end else { panic!("{:?}", history.end) };
+    let report = slideway::motion::report(&history, &SimulateOptions::new(2.0));
+    let words = &report.end.words;
+    assert!(
+        words.contains("guide.rear_middle lifts off, and drawer leaves the plane of its motion"),
+        "{words}"
+    );
+    let events = report.events.last().unwrap();
+    assert!(events.words.contains("lifting off at rear_middle"), "{}", events.words);
+    let (stop, mut reader) = (history.stop(), history.reader());
+    let rear = |sample: &slideway::motion::Sample| sample.contacts.last().unwrap().normal_force;
+    let [before, end] = [0.5 * stop, stop * (1.0 - 1e-9)].map(|time| rear(&reader.at(time).unwrap()));
+    assert!(before > 1.0 && end.abs() < 1e-6, "{before} {end}");
 }

@@ -74,7 +74,6 @@ impl<'m> Instant<'m> {
         configuration: &Configuration,
     ) -> Result<Self, Faults> {
         mechanism.check_no_press_fit("what follows in time")?;
-        mechanism.check_planar("what follows in time")?;
         mechanism.check_determinate("what follows in time")?;
         let equations = KineticEquations::new(mechanism, configuration)?;
         let touching = touching_gaps(mechanism, configuration);

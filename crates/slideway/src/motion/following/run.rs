@@ -269,6 +269,9 @@ impl<'a, 'm> Run<'a, 'm> {
                 // Where its normal force vanishes, so does the room of a guided slider to tip: it goes on at the other face.
                 causes.retain(|cause| !matches!(cause, Cause::Tips(_)));
                 self.tell(causes, successors, taken);
+                if let Some(contact) = self.out_of_plane() {
+                    return Ok(Some(End::OutOfPlane(contact)));
+                }
                 let branching = self.branchings;
                 return Ok(if taken.is_some() { None } else { Some(End::NoSuchBranch { branching }) });
             }
@@ -293,6 +296,13 @@ impl<'a, 'm> Run<'a, 'm> {
         }
         self.tell(causes, Continuations::default(), None);
         Ok(Some(End::Jammed))
+    }
+
+    /// Returns a contact that is open in space: what follows is no motion in the plane.
+    fn out_of_plane(&self) -> Option<ContactId> {
+        let mechanism = self.smooth.equations.mechanism;
+        mechanism.space.as_ref()?;
+        self.phase.as_ref()?.open(mechanism).first().copied().map(ContactId)
     }
 
     /// Lets the impulse of a jam act.

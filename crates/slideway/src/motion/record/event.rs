@@ -10,7 +10,7 @@ use crate::motion::moving::cause::Cause;
 use crate::pattern::phase::{ContactPhase, JointPhase, Phase, sliding_joints};
 use crate::report::JointMode;
 use crate::report::number::against;
-use crate::solve::{joint_mode, mode_in_words};
+use crate::solve::joint_mode;
 use nalgebra::Vector2;
 
 /// The words of an event that changes nothing.
@@ -273,6 +273,9 @@ impl Words<'_> {
         match closed.next() {
             _ if before == now => None,
             None => Some(format!("{name} lifts off")),
+            Some(_) if opens && self.mechanism.space.is_some() => {
+                Some(format!("{name} tips: it {}", self.state("is now", index, joint, after)))
+            }
             Some((corner, _)) if opens => {
                 let how = match after.joints[index] {
                     JointPhase::Sticking => "which sticks".to_owned(),
@@ -404,22 +407,18 @@ impl Words<'_> {
             return format!("{verb} apart");
         }
         let tangent = self.configuration.slide(self.mechanism, slider).tangent;
-        if self.mechanism.may_lift_off(slider) {
-            let is_open = |contact: &ContactId| phase.is_open(self.mechanism, contact.index());
-            let sign = |contact: &ContactId| if is_open(contact) { -1 } else { 1 };
-            let signs: Vec<i8> = slider.contacts.iter().map(sign).collect();
-            let mode = joint_mode(self.mechanism, slider, tangent, &signs);
-            return format!("{verb} {}", JointMode::new(String::new(), mode).place());
-        }
+        let is_open = |contact: &ContactId| phase.is_open(self.mechanism, contact.index());
         let sign = |contact: &ContactId| match phase.contacts[contact.index()] {
+            _ if is_open(contact) => -1,
             ContactPhase::Pressed(Side::Positive) => 1,
             ContactPhase::Pressed(Side::Negative) => -1,
             ContactPhase::PreloadGap => 0,
         };
         let signs: Vec<i8> = slider.contacts.iter().map(sign).collect();
-        let in_gap = |k: &&ContactId| phase.contacts[k.index()] == ContactPhase::PreloadGap;
+        let in_gap = |k: &&ContactId| phase.contacts[k.index()] == ContactPhase::PreloadGap && !is_open(k);
         let gaps: Vec<&str> = slider.contacts.iter().filter(in_gap).map(|k| self.contact(*k)).collect();
-        let mode = format!("{verb} {}", mode_in_words(slider, tangent, &signs));
+        let mode = joint_mode(self.mechanism, slider, tangent, &signs);
+        let mode = format!("{verb} {}", JointMode::new(String::new(), mode).place());
         if gaps.is_empty() {
             mode
         } else {

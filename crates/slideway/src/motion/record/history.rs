@@ -107,6 +107,8 @@ pub enum End {
     OverlapVanished(JointId),
     /// A contact that was open reaches the line of its face beyond the ends of the face.
     BesideFace(ContactId),
+    /// A contact lifts off in space, and its body leaves the plane of its motion.
+    OutOfPlane(ContactId),
     /// A corner reaches a face where the model has no contact; the type of a joint that gives it one.
     BareCorner {
         /// The type.

@@ -31,6 +31,14 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             "It ends at {time}: {} passes the line of its face beyond its end, and what it meets there is not in the model.",
             mechanism.contacts[id.index()].name
         ),
+        End::OutOfPlane(id) => {
+            let contact = &mechanism.contacts[id.index()];
+            let body = moving(mechanism, contact.joint);
+            format!(
+                "It tips at {time}: {} lifts off, and {body} leaves the plane of its motion, where it is not followed.",
+                contact.name
+            )
+        }
         End::BareCorner { wanted } => format!(
             "It ends at {time}: {}, where the model has no contact. Add a `{wanted}` there, with its `face` and \
              `closed = false`.",

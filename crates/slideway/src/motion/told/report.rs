@@ -158,6 +158,8 @@ kinds! {
         OverlapVanished,
         /// A contact that was open reaches the line of its face beyond the ends of the face.
         BesideFace,
+        /// A contact lifts off in space, and its body leaves the plane of its motion.
+        OutOfPlane,
         /// A corner reaches a face where the model has no contact.
         BareCorner,
         /// A normal force reaches its limit.

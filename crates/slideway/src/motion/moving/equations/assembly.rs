@@ -2,7 +2,7 @@
 
 use super::{Equations, Failure, Rubbing};
 use crate::ids::{ContactId, DriveId};
-use crate::kinetics::{ConstraintRow, effort_forces, friction_forces};
+use crate::kinetics::{ConstraintRow, each_inertia, each_spin, effort_forces, friction_forces};
 use crate::modes::Side;
 use crate::motion::moving::linear::LinearSystem;
 use crate::pattern::face;
@@ -13,14 +13,13 @@ impl Equations<'_> {
         self.applied.fill(self.mechanism, &self.configuration).map_err(Failure::Loads)?;
         self.system.clear();
         self.unknowns.fill(0.0);
-        for (index, body) in self.mechanism.bodies.iter().enumerate() {
-            for (axis, inertia) in [body.mass, body.mass, body.moment_of_inertia].into_iter().enumerate() {
-                self.system.add(3 * index + axis, 3 * index + axis, inertia);
-            }
-        }
+        each_inertia(self.mechanism, &self.configuration, |row, column, value| {
+            self.system.add(row, column, value);
+        });
         for wrench in &self.applied.wrenches {
             wrench.add_to(self.mechanism, &self.configuration, |row, value| self.unknowns[row] += value);
         }
+        each_spin(self.mechanism, &self.configuration, |row, value| self.unknowns[row] += value);
         self.assemble_constraints();
         self.update_friction()?;
         self.assemble_friction();
@@ -32,7 +31,7 @@ impl Equations<'_> {
     fn assemble_constraints(&mut self) {
         self.rows.clear();
         self.row_ends.clear();
-        let first = 3 * self.mechanism.bodies.len();
+        let first = self.layout.accelerations();
         for (index, reaction) in self.layout.reactions().iter().enumerate() {
             if self.is_without(*reaction) {
                 self.system.add(first + index, first + index, 1.0);

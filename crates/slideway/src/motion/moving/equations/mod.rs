@@ -105,6 +105,8 @@ impl Drift {
 
 /// The equations of motion of a mechanism in a phase, at a state.
 ///
+/// In space each body has three accelerations more, which are zero; they stand behind those in the plane.
+///
 /// The state is a vector: (x, y, angle) of every body, their rates, then the work done so far by every
 /// contact, load, drive and hinge with friction.
 pub(in crate::motion) struct Equations<'m> {
@@ -212,7 +214,9 @@ impl<'m> Equations<'m> {
         let inertias = self.mechanism.bodies.iter().flat_map(|body| [body.mass, body.moment_of_inertia]);
         // With a search the acceleration of what sticks is zero to the last bit, not only beside those of
         // forces that balance.
-        let is_uncoupled = self.stuck.is_empty() && inertias.into_iter().all(|inertia| inertia > 0.0);
+        let in_plane = self.mechanism.space.is_none();
+        let is_uncoupled =
+            in_plane && self.stuck.is_empty() && inertias.into_iter().all(|inertia| inertia > 0.0);
         if is_uncoupled {
             self.system.uncouple(3 * self.mechanism.bodies.len());
         }

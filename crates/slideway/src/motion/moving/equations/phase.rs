@@ -41,12 +41,12 @@ impl Equations<'_> {
         self.stuck.clear();
         let (mechanism, size) = (self.mechanism, self.mechanism.size);
         let mut basis: Vec<Vec<f64>> = Vec::new();
-        let bodies = 3 * mechanism.bodies.len();
+        let accelerations = mechanism.accelerations();
         // What is left of a row, of unit length, beside the rows so far; the angles are counted in sizes.
         let mut is_new = |row: &ConstraintRow| {
-            let mut left = vec![0.0; bodies];
+            let mut left = vec![0.0; accelerations];
             for &(column, value) in &row.entries {
-                left[column] += if column % 3 == 2 { value / size } else { value };
+                left[column] += if mechanism.is_rotation(column) { value / size } else { value };
             }
             let length = norm(&left);
             for _ in 0..2 {

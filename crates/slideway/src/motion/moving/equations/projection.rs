@@ -24,7 +24,8 @@ impl Equations<'_> {
         for index in 0..self.row_ends.len() {
             let from = if index == 0 { 0 } else { self.row_ends[index - 1] };
             let entries = &self.rows[from..self.row_ends[index]];
-            let rate: f64 = entries.iter().map(|&(column, value)| value * state[bodies + column]).sum();
+            let in_plane = entries.iter().filter(|(column, _)| *column < bodies);
+            let rate: f64 = in_plane.map(|&(column, value)| value * state[bodies + column]).sum();
             drift.velocity = drift.velocity.max(rate.abs() / self.gap_scale(index));
             let row = self.row_place(index);
             self.work[row] = -rate;
@@ -37,7 +38,7 @@ impl Equations<'_> {
     fn row_place(&self, index: usize) -> usize {
         let reactions = self.layout.reactions().len();
         if index < reactions {
-            3 * self.mechanism.bodies.len() + index
+            self.layout.accelerations() + index
         } else {
             self.layout.len() + index - reactions
         }
@@ -68,7 +69,7 @@ impl Equations<'_> {
             Some(Reaction::Couple(joint)) => mechanism
                 .slider(*joint)
                 .map_or(0.0, |slider| configuration.angle(slider.block) - configuration.angle(slider.guide)),
-            // Of a planar model there is none.
+            // All places out of the plane stay as they are.
             Some(Reaction::Carried(..)) => 0.0,
             None => self.off_place(&self.stuck[index - self.layout.reactions().len()]),
         };
@@ -98,6 +99,7 @@ impl Equations<'_> {
             return at_middle;
         }
         let turn = configuration.angle(slider.block) - configuration.angle(slider.guide);
-        at_middle + geometry.tangent.dot(&(geometry.point - block)) * turn
+        let cos = geometry.lean.map_or(1.0, |[cos, _]| cos);
+        at_middle + geometry.tangent.dot(&(geometry.point - block)) * turn * cos
     }
 }

@@ -19,11 +19,12 @@ impl Equations<'_> {
         let parts = connected(self.mechanism);
         let mut moves = vec![false; bodies];
         let mut freedoms = vec![0_usize; bodies];
-        parts.iter().for_each(|part| freedoms[*part] += 3);
+        let of_body = self.layout.accelerations() / bodies;
+        parts.iter().for_each(|part| freedoms[*part] += of_body);
         for row in 0..self.row_ends.len() {
             let first = if row == 0 { 0 } else { self.row_ends[row - 1] };
             if let Some((column, _)) = self.rows[first..self.row_ends[row]].first() {
-                let part = parts[column / 3];
+                let part = parts[self.mechanism.body_of_acceleration(*column)];
                 freedoms[part] = freedoms[part].saturating_sub(1);
             }
         }
