@@ -305,6 +305,8 @@ pub enum FaultKind {
     InvalidName { what: &'static str, name: String, reason: &'static str },
     #[error("`{name}` is the name of a parameter and of a coordinate")]
     SharedName { name: String },
+    #[error("two contacts are named `{name}`")]
+    SharedContact { name: String },
     #[error("`{name}` is the name of a table and of a parameter or coordinate")]
     TableSharesName { name: String },
     #[error("the point `{point}` does not belong to {body}")]
@@ -829,6 +831,9 @@ impl FaultKind {
     fn fixed_hint(&self) -> Option<&'static str> {
         match self {
             Self::NotUtf8 { .. } => Some("save it as UTF-8"),
+            Self::SharedContact { .. } => {
+                Some("a block has `front` and `rear` by itself, and corners of `rests_on` have names, too")
+            }
             Self::MissingKey { key, .. } if key == "mu" => {
                 Some("write `mu = 0` for a contact without friction")
             }

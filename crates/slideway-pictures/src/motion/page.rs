@@ -202,6 +202,8 @@ pub(super) fn colours(animation: &Animation) -> Vec<(Class, &'static str)> {
         (Class::Friction, "friction"),
         (Class::PinForce, "force of a pin"),
         (Class::Load, "load, weight or drive"),
+        (Class::PointsOut, "force out of the drawing"),
+        (Class::PointsIn, "force into the drawing"),
         (Class::Velocity, "sliding velocity"),
         (Class::Break, "not to scale"),
     ];

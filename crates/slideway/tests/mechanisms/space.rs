@@ -1195,6 +1195,9 @@ fn forces_of_a_motion_in_space_are_those_of_its_states() {
             assert!(close(found.normal_force, one.normal_force, scale), "{time}, {}", one.name);
         }
         assert!(close(sample.efforts[0], solution.drives[0].effort, scale), "{time}");
+        let series = history.series(&[time]);
+        let acceleration = series.column("r.acceleration").unwrap().values[0].unwrap();
+        assert!(close(acceleration, solution.coordinates[1].acceleration, 10.0), "{time}: {acceleration}");
     }
 }
 

@@ -194,7 +194,7 @@ impl Reader<'_> {
             self.valid_name("support", place, span);
             let contact = format!("{name}.{place}");
             if contacts.iter().any(|other| *other.name == *contact) {
-                self.fault(FaultKind::SharedName { name: contact.clone() }, span);
+                self.fault(FaultKind::SharedContact { name: contact.clone() }, span);
             }
             let friction = self.friction(table, false, &contact, span).or(all);
             let wanted = Wanted::constant(format!("the place of {contact}"), Dimension::LENGTH);
@@ -261,7 +261,7 @@ impl Reader<'_> {
         for &(end, corner) in ends {
             let contact = format!("{name}.{end}");
             if contacts.iter().any(|other| *other.name == *contact) {
-                self.fault(FaultKind::SharedName { name: contact.clone() }, span);
+                self.fault(FaultKind::SharedContact { name: contact.clone() }, span);
             }
             let mut rest = self.contact(friction, contact, name, span);
             if written.one_sided == Some(true) {

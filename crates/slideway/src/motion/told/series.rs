@@ -194,13 +194,15 @@ fn values(
     row: &mut Vec<Option<f64>>,
 ) {
     let configuration = &sample.configuration;
-    let accelerations = DVector::from_iterator(
-        3 * sample.accelerations.len(),
-        sample.accelerations.iter().flatten().copied(),
-    );
+    // Nothing moves out of the plane.
+    let of_bodies = |mut in_plane: Vec<f64>| {
+        in_plane.resize(mechanism.accelerations(), 0.0);
+        DVector::from_vec(in_plane)
+    };
+    let accelerations = of_bodies(sample.accelerations.as_flattened().to_vec());
     let velocities = configuration.velocities.iter();
-    let velocities: Vec<f64> = velocities.flat_map(|one| [one.linear.x, one.linear.y, one.angular]).collect();
-    let velocities = DVector::from_vec(velocities);
+    let velocities =
+        of_bodies(velocities.flat_map(|one| [one.linear.x, one.linear.y, one.angular]).collect());
     row.push(Some(configuration.time));
     let mut equation = ConstraintRow::empty();
     let states = mechanism.coordinates.iter().zip(configuration.coordinates.iter().zip(&configuration.rates));
