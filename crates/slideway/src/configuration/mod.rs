@@ -320,6 +320,16 @@ impl<T: Real> Configuration<T> {
     pub fn contact(&self, mechanism: &Mechanism<T>, id: ContactId) -> ContactGeometry<T> {
         let contact = &mechanism.contacts[id.index()];
         let slider = mechanism.slider(contact.joint).expect("contacts belong to sliding joints");
+        self.geometry(mechanism, slider, contact)
+    }
+
+    /// A contact of a sliding joint, which may be apart from its face.
+    pub(crate) fn geometry(
+        &self,
+        mechanism: &Mechanism<T>,
+        slider: &Slider<T>,
+        contact: &Contact<T>,
+    ) -> ContactGeometry<T> {
         let z = slider.z + contact.aside[1];
         let geometry = self.touching(mechanism, slider, contact);
         match contact.lean {
@@ -331,7 +341,7 @@ impl<T: Real> Configuration<T> {
     }
 
     /// A contact of a sliding joint in the drawing's plane.
-    pub(crate) fn touching(
+    fn touching(
         &self,
         mechanism: &Mechanism<T>,
         slider: &Slider<T>,
@@ -414,7 +424,9 @@ impl<T: Real> Configuration<T> {
         };
         let point = if corner == slider.block { place } else { opposite };
         let relative = self.velocity_at(slider.block, point) - self.velocity_at(slider.guide, point);
-        [contact.gap + moved, normal.dot(&relative)]
+        // In space along the normal of the contact; nothing moves along z.
+        let along = |distance: T| contact.lean.map_or(distance, |[cos, _]| distance * cos);
+        [contact.gap + along(moved), along(normal.dot(&relative))]
     }
 
     /// Puts the friction at the sliding speeds of this configuration into a mechanism (theory, section 1: mu

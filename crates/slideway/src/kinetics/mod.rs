@@ -435,7 +435,7 @@ impl SlidingRow {
         (slider, contact): (&Slider, &Contact),
     ) -> Self {
         let mut row = ConstraintRow::empty();
-        let geometry = configuration.touching(mechanism, slider, contact);
+        let geometry = configuration.geometry(mechanism, slider, contact);
         row.normal(mechanism, configuration, contact.joint, &geometry);
         Self(row)
     }

@@ -242,12 +242,16 @@ pub(super) fn least_flights(
     let all: Vec<usize> = mechanism.one_sided().map(ContactId::index).collect();
     let free = mechanism.without_contacts(&all);
     let unknowns = KineticEquations::new(&free, configuration)?.frictionless();
-    let bodies = unknowns.rows(0, 3 * mechanism.bodies.len());
-    let in_metres =
-        |(index, value): (usize, &f64)| value.abs() * if index % 3 == 2 { mechanism.size } else { 1.0 };
+    let bodies = unknowns.rows(0, mechanism.accelerations());
+    let in_metres = |(index, value): (usize, &f64)| {
+        value.abs() * if mechanism.is_rotation(index) { mechanism.size } else { 1.0 }
+    };
     let parts = connected(mechanism);
     let flight = |part: Option<usize>| {
-        let own = bodies.iter().enumerate().filter(|(index, _)| Some(parts[index / 3]) == part);
+        let own = bodies
+            .iter()
+            .enumerate()
+            .filter(|(index, _)| Some(parts[mechanism.body_of_acceleration(*index)]) == part);
         let greatest = own.map(in_metres).fold(0.0, f64::max);
         (2.0 * greatest * TOUCHES * mechanism.size).sqrt()
     };
@@ -277,7 +281,7 @@ fn accelerations_before(event: &EventInstant<'_>) -> Result<Option<DVector<f64>>
 }
 
 fn of_bodies(mechanism: &Mechanism, unknowns: &DVector<f64>) -> DVector<f64> {
-    unknowns.rows(0, 3 * mechanism.bodies.len()).into_owned()
+    unknowns.rows(0, mechanism.accelerations()).into_owned()
 }
 
 fn candidate(
