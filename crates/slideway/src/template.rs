@@ -78,6 +78,7 @@ pub const TEMPLATES: &[Template] = templates![
     "drawer",
     "sash",
     "carriage",
+    "axis",
     "bushing",
     "telescope",
     "cylinder",

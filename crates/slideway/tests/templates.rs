@@ -234,6 +234,30 @@ fn carriage() {
     assert_locks_at("carriage", 0.25, &[("L", 0.06), ("a", 0.12)]);
 }
 
+/// `P = Q + mu (2 P a/L + max(W, 2 P h/L))`, whatever side of the rail pull and weight are on, and the rule of 2 : 1 for both
+/// distances together.
+#[test]
+fn axis() {
+    for (length, a, h, mu, y) in [
+        (0.1, 0.06, 0.04, 0.2, 0.05),
+        (0.1, -0.08, 0.11, 0.2, -0.3),
+        (0.2, 0.05, -0.3, 0.1, 0.0),
+        (0.15, 0.12, 0.0, 0.25, 0.1),
+    ] {
+        let values = [("L", length), ("a", a), ("h", h), ("y", y)];
+        let (weight, resistance) = (4.0 * 9.81, 30.0);
+        let part = |distance: f64| 2.0 * mu * f64::abs(distance) / length;
+        let lies = (resistance + mu * weight) / (1.0 - part(a));
+        let pitched = resistance / (1.0 - part(a) - part(h));
+        let expected = if part(h) * lies <= mu * weight { lies } else { pitched };
+        assert_close(effort("axis", &[&values[..], &[("mu", mu)]].concat()), expected, "P");
+        let limit = length / (2.0 * (f64::abs(a) + f64::abs(h)));
+        assert_locks_at("axis", limit, &values);
+        assert_locks_back_at("axis", limit, &values, &[("v", -0.1), ("Q", -resistance)]);
+    }
+    assert_locks_at("axis", 0.25, &[("L", 0.1), ("a", 0.12), ("h", -0.08)]);
+}
+
 #[test]
 fn bushing() {
     for (degrees, bushing, overhang, diameter, mu) in
