@@ -24,12 +24,15 @@ draw klepp-2002.svg models/klepp-2002.toml
 draw klepp-2002-dark.svg models/klepp-2002.toml --theme dark
 draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set direction=-1
 draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150 deg"
+draw scotch-yoke.svg models/scotch-yoke.toml
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
 draw telescopic-boom.svg models/telescopic-boom.toml
 draw drawer-on-two-rails.svg models/drawer-on-two-rails.toml
 draw carriage-on-two-rods.svg models/carriage-on-two-rods.toml
 draw gate-on-two-posts.svg models/gate-on-two-posts.toml
 draw three-pad-telescope.svg models/three-pad-telescope.toml
+draw boom-in-wind.svg models/boom-in-wind.toml
+draw drawer-on-runners.svg models/drawer-on-runners.toml
 draw slider-crank-with-pins.svg models/slider-crank-with-pins.toml
 draw toggle-press.svg models/toggle-press.toml
 draw bell-crank.svg models/bell-crank.toml
@@ -70,6 +73,10 @@ plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --qu
 
 # Maps.
 "$slideway" map models/four-bar.toml --x "phi=0 deg..360 deg" --y mu_pin=0..1 --output "$pictures/map-treadle.svg" --force
+work=$(mktemp -d)
+trap 'rm -r "$work"' EXIT
+"$slideway" new axis "$work/axis.toml" >"$work/axis.txt"
+"$slideway" map "$work/axis.toml" --x "a=-300 mm..300 mm" --y "h=-300 mm..300 mm" --output "$pictures/map-axis.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
     --output "$pictures/map-modes.svg" --force

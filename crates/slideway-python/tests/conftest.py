@@ -21,11 +21,13 @@ MODELS = sorted(slideway.gallery_models())
 DIMENSIONS = {
     "bell-crank": ("a", "60 mm", "100 mm"),
     "box-on-incline": ("b", "150 mm", "250 mm"),
+    "boom-in-wind": ("overlap", "0.5 m", "0.7 m"),
     "bracket-on-pole": ("x", "250 mm", "350 mm"),
     "cam-and-spring": ("e", "8 mm", "12 mm"),
     "cam-follower": ("A", "40 mm", "60 mm"),
     "carriage-on-two-rods": ("L", "50 mm", "70 mm"),
     "drawer": ("L", "300 mm", "500 mm"),
+    "drawer-on-runners": ("L", "300 mm", "500 mm"),
     "drawer-on-two-rails": ("L", "300 mm", "500 mm"),
     "elliptic-trammel": ("m", "1 kg", "3 kg"),
     "four-bar": ("T", "1 N m", "3 N m"),

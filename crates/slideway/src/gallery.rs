@@ -55,6 +55,8 @@ pub const MODELS: &[GalleryModel] = gallery![
     "shaft-in-v-block",
     "woodpecker",
     "rattling-drawer",
+    "boom-in-wind",
+    "drawer-on-runners",
 ];
 
 impl GalleryModel {

@@ -100,6 +100,21 @@ impl Section<'_> {
     fn drawn(&self, place: Place) -> Point {
         direction(place) * self.scale
     }
+
+    /// Half the distance between the faces of a contact (m).
+    fn half_height(&self, contact: &Contact) -> f64 {
+        (contact.height.unwrap_or(self.slider.height) / 2.0).abs()
+    }
+
+    /// How far the faces of a contact are drawn from its middle: where they are, or close by if the contact has no height.
+    fn reach(&self, contact: &Contact) -> f64 {
+        (self.half_height(contact) * self.scale).max(GAP)
+    }
+
+    /// The side of a contact on which its face lies that presses with a positive normal force.
+    fn pressing_side(&self) -> f64 {
+        if self.slider.around { 1.0 } else { -1.0 }
+    }
 }
 
 /// In the drawing, where y points down.
@@ -148,7 +163,11 @@ impl<'a> Painter<'a> {
     }
 
     fn scale_of_section(&self, section: &Section<'_>) -> f64 {
-        let contacts = self.in_section(section).into_iter().map(|(_, _, place)| place);
+        let faces = |(_, contact, place): (usize, &Contact, Place)| {
+            let half = Place::from(contact.normal_across()) * section.half_height(contact);
+            [place - half, place + half]
+        };
+        let contacts = self.in_section(section).into_iter().flat_map(faces);
         let loads = self.loads_in_section(section).into_iter().map(|load| load.place);
         let corners = self.outline_in_section(section).into_iter().flatten();
         let bounds = Bounds::around(contacts.chain(loads).chain(corners));
@@ -199,17 +218,22 @@ impl<'a> Painter<'a> {
         let [cos, sin] = contact.normal_across();
         let normal = direction(Vector2::new(cos, sin));
         let across = Point::new(-normal.y, normal.x);
-        let corner = |one: f64, other: f64| at + normal * (one * 0.5 * PAD) + across * (other * PAD);
-        self.area(
-            Class::Pad,
-            vec![corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0), corner(-1.0, 1.0)],
-        );
-        let around = if section.slider.around { -1.0 } else { 1.0 };
-        let sides: &[f64] = if contact.opens { &[-1.0] } else { &[-1.0, 1.0] };
+        let reach = section.reach(contact);
+        // One pad between faces that are close, else one at each.
+        let pads: &[f64] = if reach > GAP { &[-1.0, 1.0] } else { &[0.0] };
+        for pad in pads {
+            let middle = at + normal * (pad * (reach - 0.5 * PAD));
+            let corner = |one: f64, other: f64| middle + normal * (one * 0.5 * PAD) + across * (other * PAD);
+            self.area(
+                Class::Pad,
+                vec![corner(1.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0), corner(-1.0, 1.0)],
+            );
+        }
+        let sides: &[f64] = if contact.opens { &[1.0] } else { &[1.0, -1.0] };
         for side in sides {
-            let out = normal * (*side * around);
+            let out = normal * (*side * section.pressing_side());
             let along = Point::new(-out.y, out.x) * FACE;
-            let [from, to] = [-1.0, 1.0].map(|end| at + out * GAP + along * end);
+            let [from, to] = [-1.0, 1.0].map(|end| at + out * reach + along * end);
             self.line(Class::Wall, vec![from, to]);
             if section.slider.guide == Frame::Ground {
                 self.hatching(from, to);
@@ -236,6 +260,9 @@ impl<'a> Painter<'a> {
         let aside = if contact.offset < 0.0 { across * ASIDE } else { Point::zeros() };
         let text = format!("{name} {}", self.shown(forces.normal.abs(), "N"));
         let arrow = normal * (forces.normal * scale);
+        let reach = section.reach(contact);
+        let face = if reach > GAP { reach * section.pressing_side() * forces.normal.signum() } else { 0.0 };
+        let at = at + normal * face;
         self.arrow_of_force(Class::Reaction, (at + aside, !section.slider.around), arrow, text);
     }
 

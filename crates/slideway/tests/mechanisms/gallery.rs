@@ -269,6 +269,49 @@ fn a_shaft_rubs_in_its_v_or_climbs_out() {
     }
 }
 
+/// Forces of the pads and the acceleration: a prototype with rows of Newton and Euler written by hand, compared with simulations in
+/// six degrees of freedom. Without wind and offset `m s'' = F - (W + m g) sin(beta) - mu (N_f + N_r)` in the plane.
+#[test]
+fn wind_stops_a_boom() {
+    let report = report("boom-in-wind", &[]);
+    let solution = only(&report);
+    let forces = [
+        ("front", 1016.1155),
+        ("front_right", 546.2692),
+        ("rear", -911.7415),
+        ("side_front", -271.7995),
+        ("side_rear", 121.7995),
+    ];
+    for (pad, expected) in forces {
+        let found = contact(solution, &format!("slide.{pad}")).normal_force;
+        assert!((found - expected).abs() < 5e-5, "{pad}: {found}");
+    }
+    assert!((solution.coordinates[0].acceleration + 0.0897).abs() < 5e-5);
+    let calm = report_with(&model("boom-in-wind"), &parameters(&[("wind", "0 N"), ("offset", "0 mm")]));
+    assert!((only(&calm).coordinates[0].acceleration - 0.8943).abs() < 5e-5);
+}
+
+/// `P = mu_runner W (1 - k y_W)/(1 - k a)` with `k = 2 mu/L`; the rear corner carries `W (1/2 - x_W/L) - P c/L`.
+#[test]
+fn a_drawer_on_runners_needs_its_pull_and_tips() {
+    let weight = 6.116 * 9.81;
+    for (a, mu) in [(0.2_f64, 0.3_f64), (0.1, 0.5), (0.25, 0.2)] {
+        let k = 2.0 * mu / 0.4;
+        let pull = 0.25 * weight * (1.0 - k * 0.07) / (1.0 - k * a);
+        let at = |c: f64| {
+            let [a, mu, c] = [a, mu, c].map(|value| value.to_string());
+            report("drawer-on-runners", &[("a", &a), ("mu", &mu), ("c", &c)])
+        };
+        let lies = at(0.03);
+        assert!((only(&lies).drives[0].effort - pull).abs() < 1e-9, "{a} {mu}");
+        let rear = contact(only(&lies), "guide.rear_middle").normal_force;
+        assert!((rear - (weight * 0.55 - pull * 0.03 / 0.4)).abs() < 1e-9, "{a} {mu}: {rear}");
+        let tips = weight * 0.55 * 0.4 / pull;
+        assert!(contact(only(&at(tips * 0.999)), "guide.rear_middle").normal_force > 0.0);
+        assert_eq!(contact(only(&at(tips * 1.001)), "guide.rear_middle").normal_force, 0.0);
+    }
+}
+
 #[test]
 fn names_are_unique_and_found() {
     let names: BTreeSet<&str> = MODELS.iter().map(|entry| entry.name).collect();
