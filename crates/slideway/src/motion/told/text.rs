@@ -174,7 +174,7 @@ impl Page<'_, SimulateReport> {
                     self.line(&format!("  ... {left_out} left out here; --all-events shows them"));
                 }
                 LogLine::Bounces { hits, .. } => self.line(&format!(
-                    "  ... it hits this stop {hits} times more, ever less; --all-events shows them"
+                    "  ... it hits there {hits} times more, ever less; --all-events shows them"
                 )),
             }
         }
