@@ -99,7 +99,7 @@ impl Mechanism {
             if faces[..index].iter().any(covers) {
                 continue;
             }
-            let Some(body) = face.block.body() else { continue };
+            let Some(body) = face.block.body().filter(|_| !self.hangs_on(face)) else { continue };
             let of_face = faces.iter().filter(|(_, other)| self.is_one_face(face, other));
             let contacts: Vec<(Vector2<f64>, f64)> = of_face
                 .flat_map(|(_, slider)| self.all_of(slider).map(|one| (one.position(slider), slider.rim())))

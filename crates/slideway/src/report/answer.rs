@@ -163,7 +163,7 @@ impl SolveReport {
         let any_load = self.any_load_in_words(margins);
         match jams {
             Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
-                let safe = "With less it does not jam while it moves, whatever the loads.".to_owned();
+                let safe = "With less friction no load jams it while it moves.".to_owned();
                 sentences.extend([self.end_in_words(margins, &at(jams)), safe]);
                 sentences.extend(below.map(|below| sentence(&below)));
                 return sentences;
@@ -368,10 +368,7 @@ impl SolveReport {
             ranges.take(3).map(|range| format!("{} {}", range.name, range.in_brief(units))).collect();
         let ranges = if ranges.is_empty() { String::new() } else { format!(": {}", ranges.join(", ")) };
         let advice = open.advice().map_or_else(String::new, |advice| format!(" {advice}"));
-        let mut cause = open.cause();
-        if let Some(first) = cause.get_mut(..1) {
-            first.make_ascii_uppercase();
-        }
+        let cause = capital(&open.cause());
         format!("{cause}{ranges}.{advice}")
     }
 

@@ -37,7 +37,7 @@ pub use style::Style;
 pub(crate) use text::{capital, count, ends_in_words, joints_in_words, spaced};
 pub use text::{followed, of_contacts};
 pub use tipping::Tipping;
-pub(crate) use tipping::{SHOWN_BY, it_tips, it_would_tip, with_less, without_solution};
+pub(crate) use tipping::{SHOWN_BY, it_tips, it_would_tip, tipping, with_less, without_solution};
 pub use undetermined::{OpenRange, Undetermined};
 pub use wrap::wrapped;
 

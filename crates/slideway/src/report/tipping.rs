@@ -42,6 +42,11 @@ pub(crate) fn it_tips(joints: &[String]) -> String {
     format!("it tips ({})", joints.join(" and "))
 }
 
+/// "tipping (bed and die)"
+pub(crate) fn tipping(joints: &[String]) -> String {
+    format!("tipping ({})", joints.join(" and "))
+}
+
 /// "it would tip (shoes) from mu = 0.45 (1.5 times this friction)"
 pub(crate) fn it_would_tip(joints: &[String], from: &str) -> String {
     format!("it would tip ({}) from {from}", joints.join(" and "))

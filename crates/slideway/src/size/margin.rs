@@ -200,9 +200,15 @@ fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin
 fn locking_margin(varied: &Varied, value: f64, work: Work<'_>) -> Result<(Margin, Vec<String>), Faults> {
     let line = varied.growing_friction(value)?;
     let mechanism = varied.mechanism(value)?;
-    let [growing, falling] = [existence(&line, GROWING, work)?, existence(&line, FALLING, work)?];
+    let growing = existence(&line, GROWING, work)?;
     let now = Upright::of(&growing, &mechanism);
-    let below = now.as_ref().and_then(|_| Upright::below(&falling, &mechanism));
+    let falling = match existence(&line, FALLING, work) {
+        // Modes that are not known with less friction leave only open whether that jams it.
+        Err(_) if now.is_some() && !mechanism.may_tip() => Existence::default(),
+        falling => falling?,
+    };
+    let is_known = now.is_some() && !falling.modes.is_empty();
+    let below = if is_known { Upright::below(&falling, &mechanism) } else { None };
     if let Some(Upright { until, tips }) = below {
         return Ok((Margin::Needs(until), tips));
     }

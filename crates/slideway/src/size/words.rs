@@ -6,7 +6,7 @@ use super::search::Tried;
 use crate::limits::no_answers;
 use crate::report::effort::least_friction;
 use crate::report::number::precise;
-use crate::report::{NO_DRIVE, Tipping, TippingLimit, it_tips, with_less, without_solution};
+use crate::report::{NO_DRIVE, Tipping, TippingLimit, it_tips, tipping, with_less, without_solution};
 use crate::units::{Unit, brief};
 
 /// A report whose conclusion is sought.
@@ -49,7 +49,7 @@ impl Words<'_> {
         sentences.extend(asks_for_drive.then(|| NO_DRIVE.to_owned()));
         let ranges: Vec<([f64; 2], &str)> =
             report.without_position.iter().map(|gap| ([gap.from, gap.to], gap.reason.as_str())).collect();
-        sentences.extend(no_answers(&ranges, &report.vary.shown_in, false));
+        sentences.extend(no_answers(&ranges, &report.vary, false));
         sentences
     }
 
@@ -151,7 +151,7 @@ impl Words<'_> {
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking if report.tips.is_empty() => "it is on the verge of jamming".to_owned(),
                 MarginKind::Locking => {
-                    format!("it is on the verge of tipping ({})", report.tips.join(" and "))
+                    format!("it is on the verge of {}", tipping(&report.tips))
                 }
                 _ => format!("it just holds{}", every_load(report)),
             },
@@ -197,10 +197,7 @@ impl Words<'_> {
                 format!("its safety factor is {factor}, {enough}")
             }
             (MarginKind::Locking, true) => {
-                format!(
-                    "its safety factor is {factor} against tipping ({}), {enough}",
-                    report.tips.join(" and ")
-                )
+                format!("its safety factor is {factor} against {}, {enough}", tipping(&report.tips))
             }
             (MarginKind::Locking, false) => {
                 let jams = || without_solution(report.tipping.as_ref());

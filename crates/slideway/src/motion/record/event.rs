@@ -533,6 +533,17 @@ fn other_face(mechanism: &Mechanism, joint: JointId) -> Option<JointId> {
     others.find(|one| is_loose(&joint) && name(*one) == name(joint))
 }
 
+/// Whether a block is held between both faces of a loose guide.
+pub(in crate::motion) fn is_wedged(mechanism: &Mechanism, phase: &Phase) -> bool {
+    let touches = |joint: JointId| {
+        let slider = mechanism.slider(joint);
+        slider.is_some_and(|slider| slider.contacts.iter().any(|k| !phase.is_open(mechanism, k.index())))
+    };
+    sliding_joints(mechanism)
+        .into_iter()
+        .any(|joint| touches(joint) && other_face(mechanism, joint).is_some_and(touches))
+}
+
 /// The name of a joint or contact of a loose guide without that of its face.
 fn loose_place(name: &str) -> &str {
     let face = LOOSE_FACES.iter().find_map(|face| name.strip_suffix(face)?.strip_suffix('.'));

@@ -307,7 +307,7 @@ fn unsettled(verdict: Verdict) -> &'static str {
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Attainable => " (stable)",
-        Verdict::Unattainable => " (unstable)",
+        Verdict::Unattainable => " (unstable: it leaves this state)",
         Verdict::Flutter => " (it may vibrate)",
         Verdict::Undecided | Verdict::NotComputed => "",
     }
