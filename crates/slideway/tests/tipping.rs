@@ -4,7 +4,8 @@
 
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
-use slideway::motion::{SimulateOptions, simulate};
+use slideway::motion::{self, SimulateOptions, simulate};
+use slideway::report::Style;
 use slideway::size::{SampleKind, SizeOptions, size};
 use slideway::sweep::{GridAxis, Rows, Sweep, SweepOptions};
 use slideway::{
@@ -215,6 +216,46 @@ fn what_tips_with_less_friction_has_no_safety_factor() {
     assert!(tips.starts_with("It tips: shoes.rear lifts off (below mu = 0.05). pull needs "), "{tips}");
     let tips = solve(&hung(&[("mu", "0.4")])).unwrap().verdict_in_words();
     assert!(tips.starts_with("It tips: shoes.front lifts off (from mu = 0.35 on). pull needs "), "{tips}");
+}
+
+/// What happens first on both sides of the friction at which it moves sums up the limits.
+#[test]
+fn limits_have_a_sentence_for_both_ends() {
+    let report = limits(&hung(&[]), &LimitsOptions::new("mu=0..1".parse::<Vary>().unwrap())).unwrap();
+    assert_eq!(report.answer(), "It tips below mu = 0.05 and from mu = 0.35 on (the model has 0.1).");
+    assert_eq!(report.sentences().len(), 4);
+}
+
+/// A pull that is a load stays as it is: more friction stops it, and that is no jam.
+#[test]
+fn without_a_drive_size_says_that_nothing_jams() {
+    let model = Model::parse(gallery::find("rattling-drawer").unwrap().text).unwrap();
+    let answer =
+        size(&model, &SizeOptions::new("a=0.1m..0.2m".parse::<Vary>().unwrap(), 2.0)).unwrap().answer();
+    assert!(answer.starts_with("Without a drive it cannot jam, whatever the friction"), "{answer}");
+    assert!(answer.contains("give the push as a drive"), "{answer}");
+}
+
+/// The drawer is pulled at its edge: from mu = L/(2 a) = 0.8 on nothing keeps it moving, and it sticks on two corners.
+#[test]
+fn a_drawer_that_sticks_in_its_play_is_wedged() {
+    let settings = [("c", "0"), ("a", "0.25"), ("mu", "0.9")];
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    let model =
+        Model::parse(gallery::find("rattling-drawer").unwrap().text).unwrap().with(&settings).unwrap();
+    let options = SimulateOptions::new(1.0);
+    let report = motion::report(&simulate(&model, &options).unwrap(), &options);
+    assert!(
+        report.answer().contains(", wedged between both faces of its guide, and stays so"),
+        "{}",
+        report.answer()
+    );
+    let last = &report.events.last().unwrap().words;
+    let wedged =
+        "sticks, wedged between both faces (rails.front on the lower one, rails.rear on the upper one)";
+    assert!(last.contains(wedged), "{last}");
+    let text = report.text(Style::PLAIN);
+    assert!(text.contains("it hits there") && text.lines().count() < 40, "{text}");
 }
 
 #[test]
