@@ -274,6 +274,10 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
         return never.then(|| "it does not jam at any friction while it moves".to_owned());
     };
+    // What tips before it jams has been told to tip.
+    if direction.tipping.is_some() {
+        return None;
+    }
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {
         let advice = if is_advised { String::new() } else { format!(", {SHOWN_BY}") };

@@ -152,8 +152,9 @@ impl SolveReport {
         let tips = margins.tipping.iter();
         let mut sentences: Vec<String> =
             tips.map(|tips| sentence(&it_would_tip(&tips.joints, &at(tips.factor)))).collect();
-        let jams = margins.no_solution;
-        if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
+        // What tips before it jams is told to tip: the first thing that happens is what counts.
+        let jams = margins.no_solution.filter(|_| margins.tipping.is_none());
+        if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != margins.no_solution) {
             sentences.push(if self.status == Status::One {
                 format!("From {} it has several ways to go on.", at(changes))
             } else {
@@ -169,7 +170,10 @@ impl SolveReport {
                 return sentences;
             }
             Some(jams) => sentences.push(self.end_in_words(margins, &at(jams))),
-            None if margins.another_count.is_none() && self.has_friction() => {
+            None if margins.another_count.is_none()
+                && margins.no_solution.is_none()
+                && self.has_friction() =>
+            {
                 let with = if margins.uniqueness.is_some() { " under this load" } else { "" };
                 sentences.push(if self.status == Status::Several {
                     "However much all friction grows, it has a solution.".to_owned()
