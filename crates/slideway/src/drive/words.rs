@@ -180,7 +180,8 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
 /// " foot lifts off.", of joints that open.
 fn lifts(only: &DriveSolution) -> String {
     let opens = only.joints.iter().filter(|joint| joint.face == Some(OnFace::Opens));
-    opens.map(|joint| format!(" {} lifts off.", joint.name)).collect()
+    let opens: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
+    opens.concat()
 }
 
 /// "push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",

@@ -73,7 +73,7 @@ pub(super) fn conclusion(
     let summary = summary.filter(|_| forwards.between_faces_at.is_empty());
     // Of more stretches the summary tells what happens first.
     let says_all = is_plain && summary.is_some() && sentences.len() < 3;
-    Conclusion { says_all, summary, sentences }
+    Conclusion { summary, says_all, sentences }
 }
 
 /// Where contacts lift off: " foot lifts off from speed = 43.88 rad/s on." Empty where none does.
