@@ -322,7 +322,7 @@ impl Painter<'_> {
         }
         let efforts = self.mechanism.drives.iter().filter_map(|drive| match &drive.effort {
             Effort::Force { at, .. } => Some(at),
-            _ => None,
+            Effort::Torque { .. } => None,
         });
         places.extend(efforts.filter(|at| at.frame == frame));
         let properties = &self.mechanism.bodies[body.index()];
