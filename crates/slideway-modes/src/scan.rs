@@ -13,12 +13,15 @@ pub const HALVINGS: i32 = 100;
 /// The most stretches of other answers that are sought between two neighbouring values.
 pub const BETWEEN: usize = 3;
 
-/// The ends of a range and evenly spaced values between them, as far as there are so many numbers. Both ends are exact.
+/// The ends of a range and evenly spaced values between them, as far as there are so many numbers. Both ends are exact, and what
+/// is only the rounding of their sum is zero.
 pub fn evenly([from, to]: [f64; 2], steps: usize) -> impl Iterator<Item = f64> + Clone {
     let at = move |step: usize| {
         let (way, share) = ((to - from) * step as f64 / steps as f64, step as f64 / steps as f64);
         match step {
             _ if step == steps => to,
+            // Each of three operations rounds by at most half of EPSILON.
+            _ if (from + way).abs() <= 1.5 * f64::EPSILON * from.abs() => 0.0,
             _ if way.is_finite() => from + way,
             // The range is wider than the greatest number.
             _ => from * (1.0 - share) + to * share,

@@ -180,7 +180,7 @@ fn hold_answers() {
         ),
         (
             held("cam-follower", &[], Some("cam")),
-            "Without `cam` it does not hold: it starts to slide (lift: -400 m/s^2). It holds with `cam` from 193 to 286.1 N. Not self-locking: a great enough `cam` moves it. It would be self-locking from mu = 0.814 (now 0.15).",
+            "Without `cam` it does not hold: it starts to slide (lift: -400 m/s^2). It holds with `cam` from 193 to 286.1 N. Not self-locking: `cam` moves it if great enough. It would be self-locking from mu = 0.814 (now 0.15).",
         ),
         (
             held("drawer", &[], Some("resistance")),

@@ -32,8 +32,8 @@ fn answer(model: &Model) -> String {
 fn a_drawer_moves_or_jams() {
     assert_eq!(
         answer(&model("drawer")),
-        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). Below \
-         that no load jams it while it moves."
+        "It moves: push needs 36.36 N (20 N without friction). It would jam from mu = 0.6667 (2.222 times this friction). With \
+         less friction no load jams it while it moves."
     );
     assert_eq!(
         answer(&with("drawer", &[("mu", "0.7")])),

@@ -164,7 +164,7 @@ fn of_solve(outcome: Outcome) -> First {
         Rests => Line(solved("ladder", &[]), "It holds. The forces at rest are not determined: "),
         LiftsOff => Line(
             solved("box-on-incline", &[]),
-            "It slows down at 5.444 m/s^2 and tips: base.front lifts off.",
+            "It tips: base.front lifts off (from mu = 0.5 on). It slows down at 5.444 m/s^2.",
         ),
         Undecided => Line(solved("drawer", &VERGE), "Not decided: it is on the verge of jamming, "),
         Interrupted => {

@@ -4,8 +4,9 @@
 
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
-use slideway::motion::{SimulateOptions, simulate};
-use slideway::size::{SizeOptions, size};
+use slideway::motion::{self, SimulateOptions, simulate};
+use slideway::report::Style;
+use slideway::size::{SampleKind, SizeOptions, size};
 use slideway::sweep::{GridAxis, Rows, Sweep, SweepOptions};
 use slideway::{
     DriveOptions, HoldOptions, Model, Report, Settings, drive, gallery, hold, solve, warning::warnings,
@@ -56,7 +57,7 @@ fn every_answer_says_that_it_tips() {
     let over = drive(&door(&[]), &options).unwrap().answer();
     assert!(over.contains("Over h from 200 to 5000 mm, it tips (shoes) from 1500 mm on."), "{over}");
     let drawn = drive(&door(&[("h", "2500 mm")]), &DriveOptions::default()).unwrap().answer();
-    assert!(drawn.contains(" It tips (shoes)."), "{drawn}");
+    assert!(drawn.starts_with("It tips (shoes); pull needs "), "{drawn}");
 }
 
 /// At rest a pull tips it as soon as its moment about a shoe exceeds W b/2, if friction holds it: here 9.81 * 30 * 0.45 / 1.9.
@@ -171,4 +172,94 @@ fn it_tips_in_both_directions() {
             "mu from 0.45 to 1.2: in both directions it tips."
         ]
     );
+}
+
+/// The door hangs below its rail and is pulled |h| = 1 m below it. Its centre of mass is d = 50 mm beyond the front shoe: its
+/// weight lifts the rear shoe until the pull, mu W |h|, balances W d, at mu = d/|h| = 0.05; from mu = (b + d)/|h| = 0.35 on the
+/// pull lifts the front shoe.
+fn hung(settings: &[(&str, &str)]) -> Model {
+    let text = DOOR
+        .replace("b = \"900 mm\"", "b = \"300 mm\"\nd = \"50 mm\"")
+        .replace("h = \"1000 mm\"", "h = \"-1000 mm\"")
+        .replace("mu = 0.3", "mu = 0.1")
+        .replace("centre_of_mass = [0, \"1000 mm\"]", "centre_of_mass = [\"b/2 + d\", \"-1000 mm\"]");
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    Model::parse(&text).unwrap().with(&settings).unwrap()
+}
+
+#[test]
+fn what_tips_with_less_friction_has_no_safety_factor() {
+    let model = hung(&[]);
+    let report = solve(&model).unwrap();
+    let margins = report.margins.as_ref().unwrap();
+    let (below, above) = (margins.below.as_ref().unwrap(), margins.tipping.as_ref().unwrap());
+    assert!((below.factor - 0.5).abs() < 1e-12 && (above.factor - 3.5).abs() < 1e-12, "{margins:?}");
+    let told = "With less friction it tips (shoes): below mu = 0.05.";
+    assert!(report.safety_in_words().concat().ends_with(told), "{:?}", report.safety_in_words());
+    let driven = drive(&model, &DriveOptions::default()).unwrap();
+    assert_eq!(driven.directions[0].below.as_ref(), Some(below));
+    assert!(driven.answer().contains(told), "{}", driven.answer());
+    // Friction may be anything below what it is taken for: the centre of mass may not be beyond the front shoe, and a factor 2
+    // up needs b + d >= 2 mu |h|.
+    let options = SizeOptions::new("d=-200mm..200mm".parse::<Vary>().unwrap(), 2.0);
+    let sized = size(&model, &options).unwrap();
+    assert!((sized.met[0].from + 0.1).abs() < 1e-9 && sized.met[0].to.abs() < 1e-9, "{:?}", sized.met);
+    assert_eq!((sized.met.len(), sized.present.is), (1, SampleKind::NeedsFriction));
+    assert!((sized.present.least_friction.unwrap() - 0.5).abs() < 1e-12, "{:?}", sized.present);
+    let answer = sized.answer();
+    let none = "with less friction it tips (shoes): below mu = 0.05, so no safety factor makes it safe.";
+    assert!(answer.ends_with(none), "{answer}");
+    // Where it tips as it is, it takes more friction not to.
+    let tips = size(&hung(&[("mu", "0.04")]), &options).unwrap();
+    assert!((tips.present.least_friction.unwrap() - 1.25).abs() < 1e-12, "{:?}", tips.present);
+    let tips = solve(&hung(&[("mu", "0.04")])).unwrap().verdict_in_words();
+    assert!(tips.starts_with("It tips: shoes.rear lifts off (below mu = 0.05). pull needs "), "{tips}");
+    let tips = solve(&hung(&[("mu", "0.4")])).unwrap().verdict_in_words();
+    assert!(tips.starts_with("It tips: shoes.front lifts off (from mu = 0.35 on). pull needs "), "{tips}");
+}
+
+/// What happens first on both sides of the friction at which it moves sums up the limits.
+#[test]
+fn limits_have_a_sentence_for_both_ends() {
+    let report = limits(&hung(&[]), &LimitsOptions::new("mu=0..1".parse::<Vary>().unwrap())).unwrap();
+    assert_eq!(report.answer(), "It tips below mu = 0.05 and from mu = 0.35 on (the model has 0.1).");
+    assert_eq!(report.sentences().len(), 4);
+}
+
+/// A pull that is a load stays as it is: more friction stops it, and that is no jam.
+#[test]
+fn without_a_drive_size_says_that_nothing_jams() {
+    let model = Model::parse(gallery::find("rattling-drawer").unwrap().text).unwrap();
+    let answer =
+        size(&model, &SizeOptions::new("a=0.1m..0.2m".parse::<Vary>().unwrap(), 2.0)).unwrap().answer();
+    assert!(answer.starts_with("Without a drive it cannot jam, whatever the friction"), "{answer}");
+    assert!(answer.contains("give the push as a drive"), "{answer}");
+}
+
+/// The drawer is pulled at its edge: from mu = L/(2 a) = 0.8 on nothing keeps it moving, and it sticks on two corners.
+#[test]
+fn a_drawer_that_sticks_in_its_play_is_wedged() {
+    let settings = [("c", "0"), ("a", "0.25"), ("mu", "0.9")];
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    let model =
+        Model::parse(gallery::find("rattling-drawer").unwrap().text).unwrap().with(&settings).unwrap();
+    let options = SimulateOptions::new(1.0);
+    let report = motion::report(&simulate(&model, &options).unwrap(), &options);
+    assert!(
+        report.answer().contains(", wedged between both faces of its guide, and stays so"),
+        "{}",
+        report.answer()
+    );
+    let last = &report.events.last().unwrap().words;
+    let wedged =
+        "sticks, wedged between both faces (rails.front on the lower one, rails.rear on the upper one)";
+    assert!(last.contains(wedged), "{last}");
+    let text = report.text(Style::PLAIN);
+    assert!(text.contains("it hits there") && text.lines().count() < 40, "{text}");
+}
+
+#[test]
+fn what_hangs_on_its_rail_is_not_behind_it() {
+    let found = warnings(&hung(&[]));
+    assert_eq!(found.sorted().len(), 0, "{found:?}");
 }

@@ -41,4 +41,11 @@ load asks what that load does. The same push as a drive, and as a load:
     [loads.push]
     type = \"force\"
     at = \"peg.top\"
-    components = [0, \"-50 N\"]";
+    components = [0, \"-50 N\"]
+
+How far an answer can be trusted:
+
+    Proven             nothing is missed, rounding included
+    Computed           every case was examined, in rounded numbers
+    Sampled every ..   values between were not tried
+    Not decided        take the unsafe side, or ask beside it";

@@ -8,7 +8,7 @@ use super::scene::{Class, Point};
 use super::slide::{BAR, SUPPORT, Slide};
 use nalgebra::Vector2;
 use slideway::ids::{BodyId, Frame, JointId};
-use slideway::mechanism::{Attachment, JointKind, LoadKind, Shape};
+use slideway::mechanism::{Attachment, Effort, JointKind, LoadKind, Shape};
 use slideway::model::SliderKind;
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -297,7 +297,7 @@ impl Painter<'_> {
         widths.map(|slide| 0.5 * slide.height).reduce(f64::min).unwrap_or(BAR)
     }
 
-    /// Places of a body that its bars join: points, hinges, pins, blocks, loads.
+    /// Places of a body that its bars join: points, hinges, pins, blocks, loads, drives.
     fn places(&self, body: BodyId) -> Vec<Point> {
         let frame = Frame::Body(body);
         let mut places: Vec<Attachment> = Vec::new();
@@ -320,6 +320,11 @@ impl Painter<'_> {
                 _ => {}
             }
         }
+        let efforts = self.mechanism.drives.iter().filter_map(|drive| match &drive.effort {
+            Effort::Force { at, .. } => Some(at),
+            Effort::Torque { .. } => None,
+        });
+        places.extend(efforts.filter(|at| at.frame == frame));
         let properties = &self.mechanism.bodies[body.index()];
         if properties.shape.is_none() {
             places.extend(properties.points.iter().map(|(_, position)| Attachment::new(frame, *position)));

@@ -70,8 +70,9 @@ pub(super) fn section(
         tangent: configuration.slide(mechanism, slider).tangent,
         scale: 1.0,
     };
-    let scale = painter.scale_of_section(&section);
-    painter.draw_section(&Section { scale, ..section });
+    let loads = painter.loads_in_section(&section);
+    let scale = painter.scale_of_section(&section, &loads);
+    painter.draw_section(&Section { scale, ..section }, loads);
     let Painter { scene, labels, .. } = painter;
     (labels::labelled(scene, labels, None), scale)
 }
@@ -162,13 +163,13 @@ impl<'a> Painter<'a> {
         self.configuration.position(self.mechanism, &Attachment::new(Frame::Body(body), centre))
     }
 
-    fn scale_of_section(&self, section: &Section<'_>) -> f64 {
+    fn scale_of_section(&self, section: &Section<'_>, loads: &[Load]) -> f64 {
         let faces = |(_, contact, place): (usize, &Contact, Place)| {
             let half = Place::from(contact.normal_across()) * section.half_height(contact);
             [place - half, place + half]
         };
         let contacts = self.in_section(section).into_iter().flat_map(faces);
-        let loads = self.loads_in_section(section).into_iter().map(|load| load.place);
+        let loads = loads.iter().map(|load| load.place);
         let corners = self.outline_in_section(section).into_iter().flatten();
         let bounds = Bounds::around(contacts.chain(loads).chain(corners));
         let size = bounds.map_or(Point::zeros(), |bounds| bounds.size());
@@ -176,7 +177,7 @@ impl<'a> Painter<'a> {
         if scale.is_finite() { scale } else { self.view.scale }
     }
 
-    fn draw_section(&mut self, section: &Section<'_>) {
+    fn draw_section(&mut self, section: &Section<'_>, loads: Vec<Load>) {
         if let Some([least, greatest]) = self.outline_in_section(section) {
             let corners = [least, Place::new(greatest.x, least.y), greatest, Place::new(least.x, greatest.y)];
             let corners: Vec<Point> = corners.iter().map(|corner| section.drawn(*corner)).collect();
@@ -191,7 +192,7 @@ impl<'a> Painter<'a> {
             self.force_in_section(section, (*k, contact), section.drawn(*place));
         }
         let mut signs: Vec<Point> = Vec::new();
-        for load in self.loads_in_section(section) {
+        for load in loads {
             let place = section.drawn(load.place);
             if load.across.norm() > 0.0 {
                 let length = self.options.force_scale.map_or(1.0, |scale| scale * load.across.norm());

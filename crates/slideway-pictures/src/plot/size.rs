@@ -135,17 +135,21 @@ fn margins(report: &SizeReport, scale: f64) -> Vec<Curve> {
     points.filter(|points| points.len() > 1).map(curve).collect()
 }
 
-/// Where values that were tried have no solution.
+/// Where values that were tried have no solution, or need friction.
 fn unsolved(report: &SizeReport, scale: f64) -> Vec<Zone> {
-    let is_unsolved = |sample: &Sample| sample.is == SampleKind::NoSolution;
-    let runs = report.tried.chunk_by(|one, other| is_unsolved(one) == is_unsolved(other));
+    let meaning = |sample: &Sample| match sample.is {
+        SampleKind::NoSolution => Some("excluded: no solution"),
+        SampleKind::NeedsFriction => Some("excluded: it tips or jams with less friction"),
+        _ => None,
+    };
+    let runs = report.tried.chunk_by(|one, other| meaning(one) == meaning(other));
     let zone = |run: &[Sample]| {
         let [first, .., last] = run else { return None };
-        is_unsolved(first).then(|| Zone {
+        meaning(first).map(|meaning| Zone {
             from: first.at / scale,
             to: last.at / scale,
             hatching: Hatching::Rising,
-            meaning: "excluded: no solution".to_owned(),
+            meaning: meaning.to_owned(),
         })
     };
     runs.filter_map(zone).collect()

@@ -467,7 +467,8 @@ functions of its couple.
 MarginKind = Literal["locking", "self_locking", "hold", "effort", "normal_force", "pressure", "efficiency"]
 """Which margin is meant.
 
-- `"locking"`: The factor by which kinetic friction may grow before there is no solution, or something tips.
+- `"locking"`: The factor by which kinetic friction may grow before there is no solution, or something tips;
+none where less friction does that.
 - `"self_locking"`: The factor by which static friction may grow before a load is held however great it is.
 - `"hold"`: The factor by which static friction may be smaller while all loads are held as they are, or one
 however great it is.
@@ -623,7 +624,7 @@ RawUnknown = Literal["z", "w", "u", "x", "normal_forces", "y", "payoff_1", "payo
 - `"payoff_2"`: The second player's payoff.
 - `"lambda"`: The share lambda of an unknown in its gap."""
 
-SampleKind = Literal["finite", "infinite", "no_solution", "without_bound", "no_position"]
+SampleKind = Literal["finite", "infinite", "no_solution", "without_bound", "needs_friction", "no_position"]
 """Kind of sample: whether its margin is a number, and if not, why.
 
 - `"finite"`: The margin is a number.
@@ -632,6 +633,8 @@ SampleKind = Literal["finite", "infinite", "no_solution", "without_bound", "no_p
 has any efficiency: friction takes all that the load would give.
 - `"without_bound"`: There are infinitely many solutions, in which an effort, normal force or bearing pressure
 is without bound, or an efficiency as small as can be.
+- `"needs_friction"`: With less friction than this it tips or jams: `Sample::least_friction`. No factor makes
+that safe.
 - `"no_position"`: The mechanism cannot be assembled or solved there, or a guided slider is between its faces."""
 
 Sense = Literal["model", "reversed"]
@@ -1545,6 +1548,9 @@ class DriveDirection(Record):
     tipping: TippingLimit | None = None
     """From where on a block that may lift off tips over one of its corners, while there is a solution; absent if
     none does."""
+    below: TippingLimit | None = None
+    """With less friction: below which it tips or jams; absent if nothing happens down to none, and where it tips
+    or jams as it is."""
     blow_ups: tuple[BlowUp, ...] | None = None
     """Factors of friction at which efforts grow without bound, in ascending order; absent if there are too many
     modes, or friction in hinges."""
@@ -2268,6 +2274,11 @@ class Margins(Record):
     tipping: TippingLimit | None = None
     """From where on a block that may lift off tips over one of its corners, while there is a solution; absent if
     none does."""
+    below: TippingLimit | None = None
+    """With less friction: below which it tips or jams; absent if nothing happens down to none, and where it tips
+    or jams as it is."""
+    tips_between: tuple[float | None, float | None] | None = None
+    """Of what tips as it is: between which factors of friction it does; absent elsewhere."""
     solutions_again: float | None = None
     """From this greater factor on there are solutions again; absent if there are none."""
     uniqueness: float | None = None
@@ -2818,6 +2829,9 @@ class Sample(Record):
     """Whether the margin is a number there, and if not, why."""
     margin: float | None
     """The margin; null unless it is a number."""
+    least_friction: float | None = None
+    """Where it needs friction: as a factor of its own, the friction below which it tips or jams; absent
+    elsewhere."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -2920,7 +2934,8 @@ class SizeReport(_mixins.SizeReport, Report):
     tipping: Tipping | None
     """Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise."""
     tips: tuple[str, ...]
-    """Against locking: what tips in the model at its margin, or as it is; absent if nothing does."""
+    """Against locking: what tips in the model at its margin, or as it is, or with less friction; absent if
+    nothing does."""
     wedged: float | None
     """The margin of holding in the model while something has wedged it, if that is greater than the one by
     itself, which is wanted; absent otherwise."""
@@ -3234,12 +3249,12 @@ class Tipping(Record):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TippingLimit(Record):
-    """The friction from which on blocks that may lift off tip."""
+    """The friction from which on something tips, or below which."""
 
     factor: float
     """As a factor of that of the model."""
     joints: tuple[str, ...]
-    """The joints of these blocks."""
+    """The joints that tip; none where it jams."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

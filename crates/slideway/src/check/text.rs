@@ -12,7 +12,7 @@ impl Report for CheckReport {
     /// Which questions it can answer: "Ready for: hold, simulate. For solve, give a rate."
     fn answer(&self) -> String {
         if !self.is_ready() {
-            let faults = count(self.findings.len(), "fault", "faults");
+            let faults = count(self.hindrances().len(), "fault", "faults");
             return format!("No question can be answered in this state: {faults}.");
         }
         let ready: Vec<&str> = self
@@ -104,10 +104,10 @@ impl Text<'_> {
         self.painted(colour.on_default().bold(), &report.answer());
         for (finding, questions) in report.hindrances() {
             let of_some = report.is_ready().then(|| format!("For {}: ", questions.join(", ")));
-            self.item(
-                &format!("{}{}", of_some.unwrap_or_default(), finding.message),
-                finding.hint.as_deref(),
-            );
+            // Where nothing is answered a hint must not lead to `solve` either, unless it helps that.
+            let helps = report.is_ready() || questions.contains(&"solve");
+            let hint = finding.hint.as_deref().filter(|_| helps);
+            self.item(&format!("{}{}", of_some.unwrap_or_default(), finding.message), hint);
         }
         for warning in &report.warnings {
             self.item(&warning.message, Some(&warning.hint));

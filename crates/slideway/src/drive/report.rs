@@ -126,6 +126,10 @@ pub struct DriveDirection {
     /// From where on a block that may lift off tips over one of its corners, while there is a solution; absent if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<TippingLimit>,
+    /// With less friction: below which it tips or jams; absent if nothing happens down to none, and where it tips or jams as it
+    /// is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below: Option<TippingLimit>,
     /// Factors of friction at which efforts grow without bound, in ascending order; absent if there are too
     /// many modes, or friction in hinges.
     #[serde(skip_serializing_if = "Option::is_none")]

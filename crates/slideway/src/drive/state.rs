@@ -42,6 +42,7 @@ pub(super) fn direction(model: &Model, direction: Sense, work: Work<'_>) -> Resu
     let found = DriveDirection {
         tips: report.tipping_in_the_end(),
         tipping: margins.and_then(|margins| margins.tipping.clone()),
+        below: margins.and_then(|margins| margins.below.clone()),
         direction,
         status: report.status,
         complete: report.complete,

@@ -157,7 +157,7 @@ impl Page<'_, DriveReport> {
                 self.line(&format!("  From {} = {from} to {to} it jams.", course.vary.name));
             }
             let ranges = RangeWithoutProblem::told(&direction.without_mode_problem);
-            for line in no_answers(&ranges, &course.vary.shown_in, details) {
+            for line in no_answers(&ranges, &course.vary, details) {
                 self.line(&format!("  {line}"));
             }
         }

@@ -5,7 +5,9 @@ use super::report::{
     EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
-use crate::report::{JointMode, OnFace, SHOWN_BY, Status, Verdict, capital, it_tips, it_would_tip, spaced};
+use crate::report::{
+    JointMode, OnFace, SHOWN_BY, Status, Verdict, capital, it_tips, it_would_tip, spaced, with_less,
+};
 use crate::units::number::{brief, number};
 use crate::units::precise;
 
@@ -69,7 +71,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
         Sense::Reversed => format!("Backwards, {clause}"),
         // All but names of drives and joints.
         Sense::Model
-            if ["it ", "infinitely ", "friction holds ", "from "]
+            if ["it ", "infinitely ", "friction holds ", "from ", "with less "]
                 .iter()
                 .any(|word| clause.starts_with(word)) =>
         {
@@ -86,6 +88,7 @@ pub(super) fn sentences(report: &DriveReport, direction: &DriveDirection) -> Vec
     std::iter::once(needs(report, direction, is_advised))
         .chain(tipping(direction))
         .chain(outlook(report, direction, is_advised))
+        .chain(direction.below.iter().map(|limit| with_less(limit, direction.mu) + "."))
         .map(whole)
         .collect()
 }
@@ -108,9 +111,14 @@ fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
     }
 }
 
-/// The efforts of the state that it takes: "push needs 27.3 N (20 N without friction): efficiency 73.26 %. foot lifts off."
+/// The efforts of the state that it takes: "push needs 27.3 N (20 N without friction): efficiency 73.26 %. foot lifts off.",
+/// "it tips (shoes); push needs 206.6 N (0 N without friction)."
 fn settled(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
-    format!("{}.{}{}", needs_one(report, direction, only), lifts(only), unsettled(only.attainability))
+    let needs = needs_one(report, direction, only);
+    let tips = |joint: &&JointMode| joint.face == Some(OnFace::Tips);
+    let tips: Vec<String> = only.joints.iter().filter(tips).map(|joint| joint.name.clone()).collect();
+    let needs = if tips.is_empty() { needs } else { format!("{}; {needs}", it_tips(&tips)) };
+    format!("{needs}.{}{}", lifts(only), unsettled(only.attainability))
 }
 
 /// "it jams: no force moves it.", "it tips (bed), which only a block slider can show."
@@ -169,14 +177,11 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     needs.join(", ") + &gain
 }
 
-/// " foot lifts off. It tips (shoes).", of joints that open or tip.
+/// " foot lifts off.", of joints that open.
 fn lifts(only: &DriveSolution) -> String {
-    let word = |joint: &JointMode| match joint.face? {
-        OnFace::Opens => Some(format!(" {} lifts off.", joint.name)),
-        OnFace::Tips => Some(format!(" It tips ({}).", joint.name)),
-        OnFace::Closed => None,
-    };
-    only.joints.iter().filter_map(word).collect()
+    let opens = only.joints.iter().filter(|joint| joint.face == Some(OnFace::Opens));
+    let opens: Vec<String> = opens.map(|joint| format!(" {} lifts off.", joint.name)).collect();
+    opens.concat()
 }
 
 /// "push needs 9.091 N (20 N without friction) to brake the load: efficiency 45.45 %. Another state, at -100 N, is unstable.",
@@ -270,6 +275,10 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;
         return never.then(|| "it does not jam at any friction while it moves".to_owned());
     };
+    // What tips before it jams has been told to tip.
+    if direction.tipping.is_some() {
+        return None;
+    }
     let at = times_friction(factor, direction.mu.map(|mu| factor * mu));
     if !direction.tips.is_empty() {
         let advice = if is_advised { String::new() } else { format!(", {SHOWN_BY}") };

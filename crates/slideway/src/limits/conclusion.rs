@@ -71,7 +71,9 @@ pub(super) fn conclusion(
     let sentences: Vec<String> = pieces.chain(single(forwards, "")).chain(other).collect();
     // Where a single value has a state of its own there is more to say.
     let summary = summary.filter(|_| forwards.between_faces_at.is_empty());
-    Conclusion { says_all: is_plain && summary.is_some(), summary, sentences }
+    // Of more stretches the summary tells what happens first.
+    let says_all = is_plain && summary.is_some() && sentences.len() < 3;
+    Conclusion { summary, says_all, sentences }
 }
 
 /// Where contacts lift off: " foot lifts off from speed = 43.88 rad/s on." Empty where none does.
@@ -121,11 +123,6 @@ fn summary(pieces: &[Piece], gaps: &[[f64; 2]], varied: &Varied) -> Option<Strin
         [one, other] if one.is_motion && other.verdict == TIPS && one.to == other.from => {
             Some(format!("It tips from {} on{now}.", at(other)))
         }
-        [one, tips, jams]
-            if one.is_motion && tips.verdict == TIPS && jams.verdict == JAMS && tips.to == jams.from =>
-        {
-            Some(format!("It tips from {} on, and jams from {} on{now}.", at(tips), at(jams)))
-        }
         [only] if only.verdict == JAMS => Some(format!("It jams {}{now}.", all(only))),
         [one, other] if one.to != other.from => None,
         [one, other] if one.is_motion && other.verdict == JAMS => {
@@ -144,7 +141,41 @@ fn summary(pieces: &[Piece], gaps: &[[f64; 2]], varied: &Varied) -> Option<Strin
                 format!("It jams below {}{now}.", at(other))
             })
         }
+        pieces => Some(around(pieces, at)? + &now + "."),
+    }
+}
+
+/// What ends the only stretch in which it moves, below and above: what happens first counts. "It tips below mu = 0.05 and from
+/// mu = 0.35 on".
+fn around(pieces: &[Piece], at: impl Fn(&Piece) -> String) -> Option<String> {
+    let (only, moves) = pieces.iter().enumerate().find(|(_, piece)| piece.is_motion)?;
+    if pieces.iter().filter(|piece| piece.is_motion).count() > 1 {
+        return None;
+    }
+    let verb = |piece: &Piece| match &*piece.verdict {
+        TIPS => Some("tips"),
+        JAMS => Some("jams"),
         _ => None,
+    };
+    let before = only.checked_sub(1).map(|before| &pieces[before]);
+    let after = pieces.get(only + 1);
+    if before.is_some_and(|piece| piece.to != moves.from) || after.is_some_and(|piece| piece.from != moves.to)
+    {
+        return None;
+    }
+    // A neighbour that does something else leaves no short sentence.
+    let before = if let Some(piece) = before { Some((verb(piece)?, at(moves))) } else { None };
+    let after = if let Some(piece) = after { Some((verb(piece)?, at(piece))) } else { None };
+    match (before, after) {
+        (Some((one, below)), Some((other, from))) if one == other => {
+            Some(format!("It {one} below {below} and from {from} on"))
+        }
+        (Some((one, below)), Some((other, from))) => {
+            Some(format!("It {one} below {below} and {other} from {from} on"))
+        }
+        (None, Some((verb, from))) => Some(format!("It {verb} from {from} on")),
+        (Some((verb, below)), None) => Some(format!("It {verb} below {below}")),
+        (None, None) => None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::found::{Elsewhere, Method, ModesFound, SingleValues, left_out};
 use super::text::at_most;
+use crate::report::capital;
 use crate::units::Unit;
 
 /// How the ends were found, and how the numbers of solutions between them are known.
@@ -124,9 +125,5 @@ fn knowledge(found: &ModesFound, shown_in: &Unit) -> Option<String> {
             "intervals that are not decided contain a value with another number of solutions".to_owned(),
         );
     }
-    let mut text = parts.join("; ");
-    if let Some(first) = text.get_mut(..1) {
-        first.make_ascii_uppercase();
-    }
-    Some(text + ".")
+    Some(capital(&parts.join("; ")) + ".")
 }

@@ -2,12 +2,15 @@
 
 use super::report::{
     CountLimits, EndHingeForce, EndReaction, Known, LimitsMethod, LimitsReport, ModeLimits,
-    RangeWithoutProblem, RestLimitsReport, STEPS, SpanOfRest, SpeedLimits,
+    RangeWithoutProblem, RestLimitsReport, STEPS, SpanOfRest, SpeedLimits, VariedQuantity,
 };
+use crate::modes::existence::is_same_end;
 use crate::report::count as count_of;
 use crate::report::number::number;
 use crate::report::page::Page;
-use crate::report::{CoordinateState, ModeEndCause, Report, Style, followed, joints_in_words, spaced};
+use crate::report::{
+    CoordinateState, ModeEndCause, Report, Style, capital, followed, joints_in_words, spaced,
+};
 use crate::standstill::CoordinateValue;
 use crate::units::Unit;
 use std::cmp::Ordering;
@@ -158,7 +161,7 @@ impl Page<'_, LimitsReport> {
         if !gaps.is_empty() {
             self.line("");
         }
-        for line in no_answers(&RangeWithoutProblem::told(gaps), unit, verbose) {
+        for line in no_answers(&RangeWithoutProblem::told(gaps), &self.report.vary, verbose) {
             self.line(&format!("  {line}"));
         }
     }
@@ -211,7 +214,7 @@ impl LimitsReport {
         self.summary.iter().chain(stretches).map(String::as_str).collect()
     }
 
-    /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits."
+    /// How all of this is known, in a clause: "Proven, except within 6.7e-5 of the limits.", "Computed, not proven.", "Sampled every 0.01; ..."
     pub fn known_in_words(&self) -> String {
         let unit = &self.vary.shown_in;
         let counts = || self.counts.iter().chain(self.reversed.iter().flat_map(|reversed| &reversed.counts));
@@ -223,7 +226,7 @@ impl LimitsReport {
                 let except = format!("Proven, except within {} of the limits.", at_most(left_out, unit));
                 if left_out > 0.0 { except } else { "Proven.".to_owned() }
             }
-            Some(Known::ClosedForm) => "Computed in closed form.".to_owned(),
+            Some(Known::ClosedForm) => "Computed, not proven.".to_owned(),
             Some(Known::Undecided) => "Not all of it is decided.".to_owned(),
             Some(_) => {
                 let spacing = counts().filter_map(|count| count.spacing).fold(0.0, f64::max);
@@ -237,13 +240,16 @@ impl LimitsReport {
 
 /// The sentence on what scans can miss: whatever begins and ends within this width.
 pub(crate) fn could_be_missed(width: &str) -> String {
-    format!("Checked every {width}; a narrower range could be missed.")
+    format!("Sampled every {width}; a narrower range could be missed.")
 }
 
 /// Where there is no mode problem, and why: "At 0 and 180 deg there is no answer..." Ranges that follow each other without
 /// room between them, as they are shown, are one, with the reason of the widest; with details each is there.
-pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool) -> Vec<String> {
-    let shown = |at: f64| unit.precise_number(at);
+/// What the digits of the whole range do not show beside its ends is zero.
+pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], vary: &VariedQuantity, details: bool) -> Vec<String> {
+    let (unit, whole) = (&vary.shown_in, vary.from.abs().max(vary.to.abs()));
+    let is_seen = |at: f64| unit.precise_number(whole + at.abs()) != unit.precise_number(whole);
+    let shown = |at: f64| unit.precise_number(if details || is_seen(at) { at } else { 0.0 });
     let adjoining = ranges.chunk_by(|(one, _), (next, _)| !details && shown(one[1]) == shown(next[0]));
     let joined = adjoining.filter_map(|chunk| {
         let width = |([from, to], _): &([f64; 2], &str)| to - from;
@@ -261,8 +267,8 @@ pub(crate) fn no_answers(ranges: &[([f64; 2], &str)], unit: &Unit, details: bool
         }
     };
     let sentence = |same: &[([String; 2], &str)]| {
-        let mut places = same.iter().map(place).collect::<Vec<_>>().join(" and ");
-        places[..1].make_ascii_uppercase();
+        let places = same.iter().map(place).collect::<Vec<_>>().join(" and ");
+        let places = capital(&places);
         format!("{places} there is no answer, which is no jam: {}.", same[0].1)
     };
     joined.chunk_by(|(_, one), (_, next)| one == next).map(sentence).collect()
@@ -277,19 +283,22 @@ fn mode_row(mode: &ModeLimits, counts: &[CountLimits], unit: &Unit, verbose: boo
     };
     let (from, to) = (end(mode.from), end(mode.to));
     // Beyond an end without a solution it jams, whatever ended the mode.
-    let jams = |is: ModeEndCause, at: &str, other: fn(&CountLimits) -> f64| {
+    let jams = |is: ModeEndCause, at: Option<f64>, other: fn(&CountLimits) -> f64| {
         let says_so = matches!(is, ModeEndCause::Locking | ModeEndCause::Tipping | ModeEndCause::Range);
-        let is_there = |count: &&CountLimits| unit.precise_number(other(count)) == at;
+        let is_there = |count: &&CountLimits| {
+            let place = other(count);
+            at.is_some_and(|at| is_same_end(at.max(place), at.min(place)))
+        };
         let is_jam = |count: &CountLimits| count.is_empty() && count.tipping.is_none();
         let jams = !says_so && counts.iter().filter(is_there).any(is_jam);
         if jams { "it jams: " } else { "" }
     };
     let reactions = contacts(|r| r.from_grows).chain(hinges(|force| force.from_grows));
-    let begins = jams(mode.from_is, &from, |count| count.to).to_owned()
+    let begins = jams(mode.from_is, mode.from, |count| count.to).to_owned()
         + &cause(mode.from_is, &mode.from_at, reactions);
     let reactions = contacts(|r| r.to_grows).chain(hinges(|force| force.to_grows));
     let ends =
-        jams(mode.to_is, &to, |count| count.from).to_owned() + &cause(mode.to_is, &mode.to_at, reactions);
+        jams(mode.to_is, mode.to, |count| count.from).to_owned() + &cause(mode.to_is, &mode.to_at, reactions);
     if verbose {
         vec![spaced(&mode.pattern), from, to, begins, ends]
     } else {
@@ -375,7 +384,7 @@ fn known(count: &CountLimits, unit: &Unit) -> String {
         }
         (Known::Undecided, _) => return "not decided".to_owned(),
         (Known::Sampled, Some(spacing)) => format!("sampled every {}", unit.show(spacing)),
-        _ => "closed form".to_owned(),
+        _ => "computed".to_owned(),
     };
     let length = |[from, to]: &[f64; 2]| to - from;
     match count.proven.iter().max_by(|one, other| length(one).total_cmp(&length(other))) {
@@ -410,7 +419,7 @@ fn rounded_up(value: f64) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{at_most, no_answers};
+    use super::{VariedQuantity, at_most, no_answers};
     use crate::units::Unit;
 
     /// By hand: two digits, never less, also of numbers that a power of ten of their size would underflow beside.
@@ -437,12 +446,20 @@ mod tests {
         let near = f64::from_bits(1.0_f64.to_bits() + 1);
         let ranges =
             [([0.0, 1.0], "out of its guide"), ([1.0, near], "ill-conditioned"), ([2.0, 2.0], "singular")];
-        let told = |details| no_answers(&ranges, &Unit::default(), details);
+        let (name, unit) = ("phi".to_owned(), String::new());
+        let vary = VariedQuantity { name, unit, from: 0.0, to: 3.0, value: 1.0, shown_in: Unit::default() };
+        let told = |details| no_answers(&ranges, &vary, details);
         let joined = [
             "From 0 to 1 there is no answer, which is no jam: out of its guide.",
             "At 2 there is no answer, which is no jam: singular.",
         ];
         assert_eq!(told(false), joined);
         assert_eq!(told(true).len(), 3);
+        // Seven digits of 3 do not show 2e-7.
+        let little = [([0.0, 2e-7], "singular")];
+        assert_eq!(
+            no_answers(&little, &vary, false),
+            ["At 0 there is no answer, which is no jam: singular."]
+        );
     }
 }

@@ -99,7 +99,7 @@ impl Mechanism {
             if faces[..index].iter().any(covers) {
                 continue;
             }
-            let Some(body) = face.block.body() else { continue };
+            let Some(body) = face.block.body().filter(|_| !self.hangs_on(face)) else { continue };
             let of_face = faces.iter().filter(|(_, other)| self.is_one_face(face, other));
             let contacts: Vec<(Vector2<f64>, f64)> = of_face
                 .flat_map(|(_, slider)| self.all_of(slider).map(|one| (one.position(slider), slider.rim())))
@@ -171,11 +171,12 @@ impl Mechanism {
     }
 
     /// The bodies that lie behind a face that they touch, each with the joint of it, and whether only a part does: all that is drawn
-    /// of them but what touches, or a corner between the contacts of a base, where the face is for certain.
+    /// of them but what touches, or a corner between the contacts of a base, where the face is for certain. Not what hangs on its
+    /// face, beside it: its centre of mass is behind, and its weight presses.
     pub(crate) fn behind_faces(&self) -> Vec<(JointId, BodyId, bool)> {
         let near = self.same_place();
         let behind = |(joint, face): (JointId, &Slider)| {
-            let body = face.block.body().filter(|_| self.may_lift_off(face))?;
+            let body = face.block.body().filter(|_| self.may_lift_off(face) && !self.hangs_on(face))?;
             let extremes = self.extremes(body);
             let gap = |extreme: &(Vector2<f64>, f64)| self.gap_in_drawing(face, *extreme);
             let offsets = || self.all_of(face).map(|contact| contact.offset);
@@ -194,6 +195,14 @@ impl Mechanism {
             warns.then_some((joint, body, partly))
         };
         self.sliders().filter_map(behind).collect()
+    }
+
+    /// Whether the weight of a block presses it on a straight face that is above its centre of mass in the drawing.
+    fn hangs_on(&self, face: &Slider) -> bool {
+        let Some(body) = face.block.body().filter(|_| face.round.is_none()) else { return false };
+        let (body, away) = (&self.bodies[body.index()], rot90(face.tangent));
+        let weight = body.mass * away.dot(&self.gravity);
+        weight < 0.0 && away.dot(&(body.centre_of_mass - face.at)) < 0.0
     }
 
     /// The distance of a corner or rim from a face in the drawing (m).

@@ -6,6 +6,9 @@ use crate::ids::JointId;
 use crate::model::{CarriedBy, SliderKind};
 use std::borrow::Cow;
 
+/// What the names of both faces of a loose guide end with: of the one that presses towards `n`, and of the other.
+pub(crate) const LOOSE_FACES: [&str; 2] = ["plus", "minus"];
+
 impl Mechanism {
     /// Returns the mechanism with two joints in the place of each loose guide, `NAME.plus`, whose face presses the block towards
     /// `n`, and `NAME.minus` behind all others. In the drawing the block is apart from both.
@@ -22,7 +25,7 @@ impl Mechanism {
         let (mut faces, mut faults) = (self.without_contacts(&of_loose), Faults::default());
         for (id, slider) in loose {
             let Joint { name, place, .. } = &self.joints[id.index()];
-            for (side, sign) in [("plus", 1.0), ("minus", -1.0)] {
+            for (side, sign) in LOOSE_FACES.into_iter().zip([1.0, -1.0]) {
                 let joint = if sign > 0.0 { id } else { JointId(faces.joints.len()) };
                 let face = self.face_of(slider, (joint, side, sign));
                 for contact in face.apart.iter().filter(|contact| contact.gap <= 0.0) {

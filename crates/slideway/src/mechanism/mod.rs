@@ -28,6 +28,7 @@ pub(crate) use corner::BareCorner;
 pub(crate) use end_stop::EndStop;
 use evaluation::Evaluation;
 pub use excess::Excess;
+pub(crate) use loose::LOOSE_FACES;
 use nalgebra::Vector2;
 pub use pad::Pad;
 pub(crate) use part::{body_of, frames_of};

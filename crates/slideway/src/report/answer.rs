@@ -3,7 +3,7 @@
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
     Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
-    SpeedChange, Status, Verdict, capital, it_would_tip,
+    SpeedChange, Status, Verdict, capital, it_would_tip, with_less,
 };
 use crate::units::brief;
 
@@ -148,11 +148,13 @@ impl SolveReport {
             return below.into_iter().chain(self.impulse_in_words()).collect();
         }
         let at = |factor: f64| times_friction(factor, margins.mu.map(|mu| factor * mu));
+        let below = margins.below.as_ref().map(|limit| with_less(limit, margins.mu));
         let tips = margins.tipping.iter();
         let mut sentences: Vec<String> =
             tips.map(|tips| sentence(&it_would_tip(&tips.joints, &at(tips.factor)))).collect();
-        let jams = margins.no_solution;
-        if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != jams) {
+        // What tips before it jams is told to tip: the first thing that happens is what counts.
+        let jams = margins.no_solution.filter(|_| margins.tipping.is_none());
+        if let Some(changes) = margins.another_count.filter(|changes| Some(*changes) != margins.no_solution) {
             sentences.push(if self.status == Status::One {
                 format!("From {} it has several ways to go on.", at(changes))
             } else {
@@ -162,12 +164,16 @@ impl SolveReport {
         let any_load = self.any_load_in_words(margins);
         match jams {
             Some(jams) if any_load.is_some() && self.is_safe_until(margins, jams) => {
-                let safe = "Below that no load jams it while it moves.".to_owned();
+                let safe = "With less friction no load jams it while it moves.".to_owned();
                 sentences.extend([self.end_in_words(margins, &at(jams)), safe]);
+                sentences.extend(below.map(|below| sentence(&below)));
                 return sentences;
             }
             Some(jams) => sentences.push(self.end_in_words(margins, &at(jams))),
-            None if margins.another_count.is_none() && self.has_friction() => {
+            None if margins.another_count.is_none()
+                && margins.no_solution.is_none()
+                && self.has_friction() =>
+            {
                 let with = if margins.uniqueness.is_some() { " under this load" } else { "" };
                 sentences.push(if self.status == Status::Several {
                     "However much all friction grows, it has a solution.".to_owned()
@@ -178,6 +184,7 @@ impl SolveReport {
             None => {}
         }
         sentences.extend(any_load);
+        sentences.extend(below.map(|below| sentence(&below)));
         sentences
     }
 
@@ -228,14 +235,12 @@ impl SolveReport {
     /// "It moves: push needs 36.36 N (20 N without friction)."
     fn moves_in_words(&self) -> String {
         let [solution] = self.solutions.as_slice() else { return String::new() };
-        let lifts = lifting_in_words(solution);
+        if solution.joints.iter().any(|joint| joint.face == Some(OnFace::Tips)) {
+            return self.tips_in_words(solution);
+        }
+        let lifts = lifting(solution).map_or_else(|| ".".to_owned(), |lifts| format!(". {lifts}."));
         if !solution.drives.is_empty() {
-            let needs: Vec<String> = self.needs(solution);
-            return format!(
-                "It moves: {}{}",
-                needs.join(", "),
-                lifts.replacen(" and tips:", ". It tips:", 1)
-            );
+            return format!("It moves: {}{lifts}", self.needs(solution).join(", "));
         }
         let changes: Vec<String> = self.changes(solution);
         match changes.as_slice() {
@@ -243,6 +248,26 @@ impl SolveReport {
             [change] => format!("It {change}{lifts}"),
             changes => format!("It moves: {}{lifts}", changes.join(", ")),
         }
+    }
+
+    /// "It tips: shoes.front lifts off (from mu = 0.45 on). push needs 206.6 N (0 N without friction)."
+    fn tips_in_words(&self, solution: &Solution) -> String {
+        let what = lifting(solution).map_or_else(String::new, |lifts| format!(": {lifts}"));
+        let factors = self.margins.as_ref().and_then(|margins| Some((margins.tips_between?, margins.mu)));
+        let at = |factor: f64, mu: Option<f64>| least_friction(factor, mu.map(|mu| factor * mu));
+        let range = match factors {
+            Some(([Some(from), None], mu)) => format!(" (from {} on)", at(from, mu)),
+            Some(([None, Some(to)], mu)) => format!(" (below {})", at(to, mu)),
+            Some(([Some(from), Some(to)], mu)) => format!(" (from {} to {})", at(from, mu), at(to, mu)),
+            _ => String::new(),
+        };
+        let rest = match (self.needs(solution), self.changes(solution).as_slice()) {
+            (needs, _) if !needs.is_empty() => format!(" {}.", needs.join(", ")),
+            (_, []) => String::new(),
+            (_, [change]) => format!(" It {change}."),
+            (_, changes) => format!(" {}.", changes.join(", ")),
+        };
+        format!("It tips{what}{range}.{rest}")
     }
 
     /// A remark on the only solution if a mechanism does not settle on it.
@@ -347,10 +372,7 @@ impl SolveReport {
             ranges.take(3).map(|range| format!("{} {}", range.name, range.in_brief(units))).collect();
         let ranges = if ranges.is_empty() { String::new() } else { format!(": {}", ranges.join(", ")) };
         let advice = open.advice().map_or_else(String::new, |advice| format!(" {advice}"));
-        let mut cause = open.cause();
-        if let Some(first) = cause.get_mut(..1) {
-            first.make_ascii_uppercase();
-        }
+        let cause = capital(&open.cause());
         format!("{cause}{ranges}.{advice}")
     }
 
@@ -434,16 +456,13 @@ fn sentence(clause: &str) -> String {
     capital(clause) + "."
 }
 
-/// The end of a sentence, and the contacts that lift off in a solution: ". tip lifts off.", of a block that keeps another
-/// corner on its face " and tips: base.front lifts off."
-fn lifting_in_words(solution: &Solution) -> String {
-    let tips = solution.joints.iter().any(|joint| joint.face == Some(OnFace::Tips));
-    let before = if tips { " and tips:" } else { "." };
+/// The contacts that lift off in a solution: "tip lifts off"; none where none does.
+fn lifting(solution: &Solution) -> Option<String> {
     let opens = solution.contacts.iter().filter(|contact| contact.gap_acceleration.is_some());
     let names: Vec<&str> = opens.map(|contact| &*contact.name).collect();
     match names.as_slice() {
-        [] => ".".to_owned(),
-        [only] => format!("{before} {only} lifts off."),
-        several => format!("{before} {} lift off.", several.join(" and ")),
+        [] => None,
+        [only] => Some(format!("{only} lifts off")),
+        several => Some(format!("{} lift off", several.join(" and "))),
     }
 }

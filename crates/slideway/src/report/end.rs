@@ -78,10 +78,12 @@ impl ModeEndCause {
         }
     }
 
-    /// Of the contacts of an end by a change of side those that the cause is said of: where some lift off, these.
+    /// Of the contacts of an end by a change of side those that the cause is said of: where some lift off, these, and else those
+    /// that touch, if there are any.
     pub(crate) fn of_those(contacts: &[usize], closed: impl Fn(usize) -> Option<bool>) -> Vec<usize> {
-        let lift: Vec<usize> = contacts.iter().copied().filter(|&k| closed(k) == Some(true)).collect();
-        if lift.is_empty() { contacts.to_vec() } else { lift }
+        let are = |state| contacts.iter().copied().filter(|&k| closed(k) == Some(state)).collect::<Vec<_>>();
+        let said = [are(true), are(false)].into_iter().find(|contacts| !contacts.is_empty());
+        said.unwrap_or_else(|| contacts.to_vec())
     }
 
     /// The cause of an end beyond which there is no solution at all, or another one; `closed` says of a contact that may
@@ -91,13 +93,14 @@ impl ModeEndCause {
         nothing_is_left: bool,
         closed: impl Fn(usize) -> Option<bool>,
     ) -> Self {
-        let all = |contacts: &[usize], state| contacts.iter().all(|&k| closed(k) == Some(state));
         match cause {
             // Others that change side there do so because it lifts off.
             EndCause::SideChange(contacts) if contacts.iter().any(|&k| closed(k) == Some(true)) => {
                 Self::LiftsOff
             }
-            EndCause::SideChange(contacts) if all(contacts, false) => Self::Touches,
+            EndCause::SideChange(contacts) if contacts.iter().any(|&k| closed(k) == Some(false)) => {
+                Self::Touches
+            }
             EndCause::Range => Self::Range,
             EndCause::Singular if nothing_is_left => Self::Locking,
             EndCause::Singular => Self::WithoutBound,

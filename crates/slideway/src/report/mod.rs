@@ -37,7 +37,7 @@ pub use style::Style;
 pub(crate) use text::{capital, count, ends_in_words, joints_in_words, spaced};
 pub use text::{followed, of_contacts};
 pub use tipping::Tipping;
-pub(crate) use tipping::{SHOWN_BY, it_tips, it_would_tip, without_solution};
+pub(crate) use tipping::{SHOWN_BY, it_tips, it_would_tip, tipping, with_less, without_solution};
 pub use undetermined::{OpenRange, Undetermined};
 pub use wrap::wrapped;
 
@@ -487,6 +487,13 @@ pub struct Margins {
     /// From where on a block that may lift off tips over one of its corners, while there is a solution; absent if none does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<TippingLimit>,
+    /// With less friction: below which it tips or jams; absent if nothing happens down to none, and where it tips or jams as it
+    /// is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below: Option<TippingLimit>,
+    /// Of what tips as it is: between which factors of friction it does; absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tips_between: Option<[Option<f64>; 2]>,
     /// From this greater factor on there are solutions again; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
@@ -509,13 +516,13 @@ pub struct Margins {
     pub critical_contact: Option<CriticalContact>,
 }
 
-/// The friction from which on blocks that may lift off tip.
+/// The friction from which on something tips, or below which.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct TippingLimit {
     /// As a factor of that of the model.
     pub factor: f64,
-    /// The joints of these blocks.
+    /// The joints that tip; none where it jams.
     pub joints: Vec<String>,
 }
 

@@ -1,6 +1,7 @@
 //! Which guided sliders tip where there is no solution for that reason.
 
-use super::{SolveReport, Status};
+use super::effort::least_friction;
+use super::{SolveReport, Status, TippingLimit};
 use serde::Serialize;
 
 /// The guided sliders that tip where there is no solution: a guided slider has no state in which it is tipped.
@@ -41,9 +42,21 @@ pub(crate) fn it_tips(joints: &[String]) -> String {
     format!("it tips ({})", joints.join(" and "))
 }
 
+/// "tipping (bed and die)"
+pub(crate) fn tipping(joints: &[String]) -> String {
+    format!("tipping ({})", joints.join(" and "))
+}
+
 /// "it would tip (shoes) from mu = 0.45 (1.5 times this friction)"
 pub(crate) fn it_would_tip(joints: &[String], from: &str) -> String {
     format!("it would tip ({}) from {from}", joints.join(" and "))
+}
+
+/// "with less friction it tips (shoes): below mu = 0.05"
+pub(crate) fn with_less(limit: &TippingLimit, mu: Option<f64>) -> String {
+    let what = if limit.joints.is_empty() { "it jams".to_owned() } else { it_tips(&limit.joints) };
+    let below = least_friction(limit.factor, mu.map(|mu| limit.factor * mu));
+    format!("with less friction {what}: below {below}")
 }
 
 /// The meaning of no solution: "it jams", or what tips.

@@ -27,6 +27,8 @@ pub(super) struct Sought<'q> {
     pub(super) tipping: Option<Tipping>,
     /// The joints that tip as the friction of the model grows to the margin, or as it is.
     pub(super) tips: Vec<String>,
+    /// The coefficient of friction of all contacts, if they have one.
+    pub(super) mu: Option<f64>,
     /// Whether anything may tip.
     pub(super) may_tip: bool,
     /// The margin in the model while something has wedged it.
@@ -42,7 +44,7 @@ pub(super) fn report(
     options: &SizeOptions,
     sought: &Sought<'_>,
 ) -> SizeReport {
-    let Sought { question, range, steps, value, present, tipping, tips, may_tip, wedged, gently, found } =
+    let Sought { question, range, steps, value, present, tipping, tips, mu, may_tip, wedged, gently, found } =
         sought;
     let (against, load) = match &options.against {
         Against::Locking => (MarginKind::Locking, None),
@@ -76,6 +78,7 @@ pub(super) fn report(
         present: sample(&Tried { at: *value, margin: *present }, told),
         tipping: tipping.clone(),
         tips: tips.clone(),
+        mu: *mu,
         may_tip: *may_tip,
         wedged: *wedged,
         gently: *gently,
@@ -145,7 +148,11 @@ fn gap(gap: &SizeGap, same_ends: SameEnds) -> RangeWithoutPosition {
 
 fn sample(place: &Tried, told: Told<'_>) -> Sample {
     let (is, margin) = place.margin.map_or((SampleKind::NoPosition, None), told);
-    Sample { at: place.at, is, margin }
+    let least_friction = match place.margin {
+        Some(Margin::Needs(factor)) => Some(factor),
+        _ => None,
+    };
+    Sample { at: place.at, is, margin, least_friction }
 }
 
 /// Every so many of the values that were tried, and those at which the wanted margin is just met.
@@ -160,7 +167,12 @@ fn samples(found: &SizesFound, (steps, wanted): (usize, f64), told: Told<'_>) ->
     let mut samples: Vec<Sample> =
         found.places.iter().filter(is_row).map(|place| sample(place, told)).collect();
     let exact = found.met.iter().flatten().filter(|end| end.cause == MetCause::Margin);
-    samples.extend(exact.map(|end| Sample { at: end.at, is: SampleKind::Finite, margin: Some(wanted) }));
+    samples.extend(exact.map(|end| Sample {
+        at: end.at,
+        is: SampleKind::Finite,
+        margin: Some(wanted),
+        least_friction: None,
+    }));
     samples.sort_by(|one, other| one.at.total_cmp(&other.at));
     samples.dedup_by(|next, kept| next.at == kept.at);
     samples

@@ -8,7 +8,7 @@ use crate::modes::existence::{Existence, ExistenceOptions, ModeProblemLine, TooM
 use crate::problem::TurningHinge;
 use crate::progress::Work;
 use crate::report::{Status, Tipping};
-use crate::solve::{FALLING, GROWING, Stages, Upright, locking_factor, upright};
+use crate::solve::{FALLING, GROWING, Stages, Upright, distinct, locking_factor, upright};
 use crate::standstill::self_locking_factor;
 
 /// The most patterns for which a margin is computed.
@@ -25,6 +25,8 @@ pub(super) enum Margin {
     Finite(f64),
     /// No friction reaches the limit.
     Infinite,
+    /// It needs friction: it tips or jams with less than this factor of that of the model.
+    Needs(f64),
     /// The quantity that has to keep the limit is without bound in infinitely many solutions.
     Unbounded,
 }
@@ -35,7 +37,7 @@ impl Margin {
     pub(super) fn demand(self, wanted: f64) -> f64 {
         match self {
             Self::Infinite => 0.0,
-            Self::Unbounded => f64::INFINITY,
+            Self::Unbounded | Self::Needs(_) => f64::INFINITY,
             Self::Finite(factor) if factor <= 0.0 => f64::INFINITY,
             Self::Finite(factor) => wanted / factor,
         }
@@ -44,7 +46,7 @@ impl Margin {
     pub(super) fn meets(self, wanted: f64) -> bool {
         match self {
             Self::Infinite => true,
-            Self::Unbounded => false,
+            Self::Unbounded | Self::Needs(_) => false,
             Self::Finite(factor) => factor >= wanted,
         }
     }
@@ -53,15 +55,17 @@ impl Margin {
         match (self, other) {
             (Self::Finite(one), Self::Finite(other)) => Self::Finite(one.min(other)),
             (Self::Unbounded, _) | (_, Self::Unbounded) => Self::Unbounded,
+            (Self::Needs(one), Self::Needs(other)) => Self::Needs(one.max(other)),
+            (needs @ Self::Needs(_), _) | (_, needs @ Self::Needs(_)) => needs,
             (Self::Infinite, finite) | (finite, Self::Infinite) => finite,
         }
     }
 
-    /// The factor; nothing where it is infinite or unbounded.
+    /// The factor; nothing where there is none.
     pub(super) fn factor(self) -> Option<f64> {
         match self {
             Self::Finite(factor) => Some(factor),
-            Self::Infinite | Self::Unbounded => None,
+            Self::Infinite | Self::Unbounded | Self::Needs(_) => None,
         }
     }
 }
@@ -190,22 +194,37 @@ fn against_locking(varied: &Varied, value: f64, work: Work<'_>) -> Result<Margin
 }
 
 /// The factor by which friction may grow before something tips, or there is neither a solution nor a preload-gap state;
-/// where one of both is so as it is, the factor to which it has to fall. And what tips at that factor, or as it is.
+/// where one of both is so as it is, the factor to which it has to fall. Friction may always be less than it is taken for,
+/// down to none: where that tips or jams it, it needs friction, however much more there may be. And what tips there, or as it
+/// is.
 fn locking_margin(varied: &Varied, value: f64, work: Work<'_>) -> Result<(Margin, Vec<String>), Faults> {
     let line = varied.growing_friction(value)?;
     let mechanism = varied.mechanism(value)?;
     let growing = existence(&line, GROWING, work)?;
-    Ok(match Upright::of(&growing, &mechanism) {
+    let now = Upright::of(&growing, &mechanism);
+    let falling = match existence(&line, FALLING, work) {
+        // Modes that are not known with less friction leave only open whether that jams it.
+        Err(_) if now.is_some() && !mechanism.may_tip() => Existence::default(),
+        falling => falling?,
+    };
+    let is_known = now.is_some() && !falling.modes.is_empty();
+    let below = if is_known { Upright::below(&falling, &mechanism) } else { None };
+    if let Some(Upright { until, tips }) = below {
+        return Ok((Margin::Needs(until), tips));
+    }
+    Ok(match now {
         Some(Upright { until, tips }) if until.is_infinite() => (Margin::Infinite, tips),
         Some(Upright { until, tips }) => (Margin::Finite(until), tips),
         None => {
-            let falling = existence(&line, FALLING, work)?;
-            let ends = upright(&falling, &mechanism).map(|mode| mode.to.at);
+            let less = upright(&falling, &mechanism).map(|mode| mode.to.at).reduce(f64::max);
+            let more = upright(&growing, &mechanism).map(|mode| mode.from.at).reduce(f64::min);
             let now = growing.modes.iter().filter(|mode| mode.from.at <= GROWING[0]);
-            let mut tips: Vec<String> = now.flat_map(|mode| mechanism.tipped(&mode.pattern)).collect();
-            tips.sort_unstable();
-            tips.dedup();
-            (Margin::Finite(ends.fold(0.0, f64::max)), tips)
+            let tips = distinct(now.flat_map(|mode| mechanism.tipped(&mode.pattern)).collect());
+            let margin = match (less, more) {
+                (None, Some(more)) => Margin::Needs(more),
+                (less, _) => Margin::Finite(less.unwrap_or(0.0)),
+            };
+            (margin, tips)
         }
     })
 }

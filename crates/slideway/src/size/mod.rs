@@ -2,7 +2,8 @@
 //!
 //! The margin against locking is the factor by which all kinetic coefficients of friction may grow before
 //! there is no solution (`margins.no_solution` of [`mod@crate::solve`]), or something tips (`margins.tipping`). Where one of
-//! both is so already, it is the factor to which they have to fall, below 1. At one value it is known in closed form
+//! both is so already, it is the factor to which they have to fall, below 1. Where less friction does that (`margins.below`)
+//! there is none. At one value it is known in closed form
 //! ([`crate::modes::existence`]); over a parameter it is bracketed. The margin against self-locking is the
 //! factor by which all static coefficients may grow before a load is held however great it is; the margin of
 //! holding is the inverse of that, or of the factor from which on all loads are held as they are: by how much friction may be
@@ -44,6 +45,7 @@ use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
+use crate::solve::common_coefficient;
 use crate::standstill::{HoldOptions, hold_within, only_load};
 use crate::units::Unit;
 use margin::{Margin, MarginQuestion};
@@ -285,6 +287,7 @@ fn size_of(model: &Model, options: &SizeOptions, work: Work<'_>) -> Result<SizeR
         present,
         tipping,
         tips,
+        mu: common_coefficient(&mechanism),
         may_tip,
         wedged,
         gently,

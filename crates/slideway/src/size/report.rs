@@ -13,7 +13,8 @@ pub const SCHEMA: &str = "slideway/size/1";
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum MarginKind {
-    /// The factor by which kinetic friction may grow before there is no solution, or something tips.
+    /// The factor by which kinetic friction may grow before there is no solution, or something tips; none where less friction does
+    /// that.
     Locking,
     /// The factor by which static friction may grow before a load is held however great it is.
     SelfLocking,
@@ -58,6 +59,7 @@ impl MarginKind {
             (Self::Efficiency, Margin::Finite(kept)) => (SampleKind::Finite, Some(limit * kept)),
             (_, Margin::Finite(factor)) => (SampleKind::Finite, Some(factor)),
             (_, Margin::Infinite) => (SampleKind::Infinite, None),
+            (_, Margin::Needs(_)) => (SampleKind::NeedsFriction, None),
             (_, Margin::Unbounded) => (SampleKind::WithoutBound, None),
         }
     }
@@ -98,9 +100,12 @@ pub struct SizeReport {
     /// Guided sliders that tip in the model, if there is no solution for that reason; absent otherwise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tipping: Option<Tipping>,
-    /// Against locking: what tips in the model at its margin, or as it is; absent if nothing does.
+    /// Against locking: what tips in the model at its margin, or as it is, or with less friction; absent if nothing does.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tips: Vec<String>,
+    /// The coefficient of friction of all contacts in the model, if they have one.
+    #[serde(skip)]
+    pub(super) mu: Option<f64>,
     /// Whether anything may tip.
     #[serde(skip)]
     pub(super) may_tip: bool,
@@ -177,6 +182,8 @@ pub enum SampleKind {
     /// There are infinitely many solutions, in which an effort, normal force or bearing pressure is without bound, or an
     /// efficiency as small as can be.
     WithoutBound,
+    /// With less friction than this it tips or jams: [`Sample::least_friction`]. No factor makes that safe.
+    NeedsFriction,
     /// The mechanism cannot be assembled or solved there, or a guided slider is between its faces.
     NoPosition,
 }
@@ -191,6 +198,9 @@ pub struct Sample {
     pub is: SampleKind,
     /// The margin; null unless it is a number.
     pub margin: Option<f64>,
+    /// Where it needs friction: as a factor of its own, the friction below which it tips or jams; absent elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least_friction: Option<f64>,
 }
 
 /// A range without an answer: the mechanism cannot be assembled or solved, or a guided slider is between its

@@ -3,6 +3,7 @@
 use super::report::{MarginKind, MetEnd, MetInterval, SampleKind, SizeReport};
 use super::words::{level, subject};
 use crate::limits::could_be_missed;
+use crate::report::effort::times;
 use crate::report::number::precise;
 use crate::report::page::Page;
 use crate::report::{CoordinateState, Report, Style};
@@ -84,15 +85,22 @@ impl Page<'_, SizeReport> {
         let margin = |sample: &super::Sample| match (sample.is, sample.margin) {
             (SampleKind::Infinite, _) => "infinite".to_owned(),
             (SampleKind::WithoutBound, _) => "without bound".to_owned(),
+            (SampleKind::NeedsFriction, _) => "none".to_owned(),
             (_, Some(margin)) => report.limit_shown_in.precise_number(margin),
             (SampleKind::NoSolution, _) => report.against.nothing().to_owned(),
             _ => "no answer".to_owned(),
         };
         let header = report.limit_shown_in.title(&what);
-        let row = |sample: &super::Sample| vec![unit.precise_number(sample.at), margin(sample)];
+        let needs = report.samples.iter().any(|sample| sample.least_friction.is_some());
+        let row = |sample: &super::Sample| {
+            let least = sample.least_friction.map_or_else(String::new, times);
+            let least = needs.then_some(least);
+            [unit.precise_number(sample.at), margin(sample)].into_iter().chain(least).collect()
+        };
         let mut rows: Vec<Vec<String>> = report.samples.iter().map(row).collect();
         rows.dedup();
-        self.table(&[&name, &header], &rows);
+        let titles = [&*name, &header, "tips or jams below"];
+        self.table(&titles[..if needs { 3 } else { 2 }], &rows);
     }
 }
 

@@ -4,8 +4,9 @@ use super::margin::SAME;
 use super::report::{MarginKind, MetEnd, MetInterval, Sample, SampleKind, SizeReport};
 use super::search::Tried;
 use crate::limits::no_answers;
+use crate::report::effort::least_friction;
 use crate::report::number::precise;
-use crate::report::{NO_DRIVE, Tipping, it_tips, without_solution};
+use crate::report::{NO_DRIVE, Tipping, TippingLimit, it_tips, tipping, with_less, without_solution};
 use crate::units::{Unit, brief};
 
 /// A report whose conclusion is sought.
@@ -30,27 +31,25 @@ pub(super) fn guarantee([from, to]: [f64; 2], steps: usize, against: MarginKind,
     )
 }
 
-/// Said where tipping counts, which less friction may cause as well.
-const MORE_FRICTION: &str = "The factor is for more friction. With less it may tip, too: ask `limits`.";
-
 impl Words<'_> {
     pub(super) fn conclusion(&self) -> Vec<String> {
-        let mut sentences = vec![self.answer()];
-        sentences.push(self.present());
         let report = self.report;
-        if !report.met.is_empty() {
-            sentences.extend(self.constant());
-        }
-        if !self.driven && report.against == MarginKind::Locking && report.present.is != SampleKind::Finite {
-            sentences.push(NO_DRIVE.to_owned());
-        }
-        if report.may_tip && report.against == MarginKind::Locking {
-            sentences.push(MORE_FRICTION.to_owned());
-        }
-        let report = self.report;
+        let asks_for_drive =
+            !self.driven && report.against == MarginKind::Locking && report.present.is != SampleKind::Finite;
+        let mut sentences = if asks_for_drive && self.never_jams() {
+            let tips = if report.may_tip { " or tip" } else { "" };
+            let range = report.vary.shown_in.range(&report.vary.name, [report.vary.from, report.vary.to]);
+            vec![format!(
+                "Without a drive it cannot jam{tips}, whatever the friction: the loads stay as they are ({range})."
+            )]
+        } else {
+            let constant = self.constant().filter(|_| !report.met.is_empty());
+            [self.answer(), self.present()].into_iter().chain(constant).collect()
+        };
+        sentences.extend(asks_for_drive.then(|| NO_DRIVE.to_owned()));
         let ranges: Vec<([f64; 2], &str)> =
             report.without_position.iter().map(|gap| ([gap.from, gap.to], gap.reason.as_str())).collect();
-        sentences.extend(no_answers(&ranges, &report.vary.shown_in, false));
+        sentences.extend(no_answers(&ranges, &report.vary, false));
         sentences
     }
 
@@ -139,6 +138,7 @@ impl Words<'_> {
             (SampleKind::WithoutBound, _) => {
                 format!("infinitely many solutions leave the {what} without bound; the limit is not kept")
             }
+            (SampleKind::NeedsFriction, _) => self.needs_friction(),
             (_, Some(level)) if report.against.is_limit() => {
                 let is_kept = if report.against.is_greatest() {
                     level <= report.margin
@@ -151,7 +151,7 @@ impl Words<'_> {
             (_, Some(margin)) if (margin - 1.0).abs() <= SAME => match report.against {
                 MarginKind::Locking if report.tips.is_empty() => "it is on the verge of jamming".to_owned(),
                 MarginKind::Locking => {
-                    format!("it is on the verge of tipping ({})", report.tips.join(" and "))
+                    format!("it is on the verge of {}", tipping(&report.tips))
                 }
                 _ => format!("it just holds{}", every_load(report)),
             },
@@ -173,6 +173,18 @@ impl Words<'_> {
         format!("{model}: {told}{wedged}.")
     }
 
+    /// "with less friction it tips (shoes): below mu = 0.05, 2 times less. No safety factor makes up for that"
+    fn needs_friction(&self) -> String {
+        let factor = self.report.present.least_friction.unwrap_or_default();
+        let mu = self.report.mu;
+        if factor >= 1.0 {
+            let from = least_friction(factor, mu.map(|mu| factor * mu));
+            return format!("{}; it takes more friction not to, from {from} on", it_tips(&self.report.tips));
+        }
+        let limit = TippingLimit { factor, joints: self.report.tips.clone() };
+        format!("{}, so no safety factor makes it safe", with_less(&limit, mu))
+    }
+
     /// The meaning of a safety factor: "its safety factor is 2.222, which is enough".
     fn factor(&self, margin: f64) -> String {
         let report = self.report;
@@ -185,10 +197,7 @@ impl Words<'_> {
                 format!("its safety factor is {factor}, {enough}")
             }
             (MarginKind::Locking, true) => {
-                format!(
-                    "its safety factor is {factor} against tipping ({}), {enough}",
-                    report.tips.join(" and ")
-                )
+                format!("its safety factor is {factor} against {}, {enough}", tipping(&report.tips))
             }
             (MarginKind::Locking, false) => {
                 let jams = || without_solution(report.tipping.as_ref());
@@ -214,6 +223,12 @@ impl Words<'_> {
         }
     }
 
+    /// Whether no friction reaches the limit, wherever there is an answer.
+    fn never_jams(&self) -> bool {
+        let mut margins = self.places.iter().filter_map(|place| place.margin).peekable();
+        margins.peek().is_some() && margins.all(|margin| margin.demand(1.0) == 0.0)
+    }
+
     /// Says so if the margin is the same wherever there is one.
     fn constant(&self) -> Option<String> {
         let demands = self.places.iter().filter_map(|place| Some(place.margin?.demand(1.0)));
@@ -223,7 +238,7 @@ impl Words<'_> {
         // A limit that no value keeps since there is no solution says nothing of how it depends.
         let never_told =
             least == f64::INFINITY && greatest == f64::INFINITY && !self.report.against.is_limit();
-        if is_same && greatest == 0.0 && self.report.against == MarginKind::Locking {
+        if self.never_jams() && self.report.against == MarginKind::Locking {
             let tips = if self.report.may_tip { " or tips" } else { "" };
             return Some(format!("No friction, however great, jams{tips} it anywhere in this range."));
         }

@@ -3,7 +3,7 @@
 use super::mode_problem::ProblemData;
 use super::stages::Stages;
 use super::state::{pattern, signs};
-use super::upright::Upright;
+use super::upright::{Upright, upright};
 use crate::enclosure::EnclosedModeProblem;
 use crate::interval::Interval;
 use crate::mechanism::Mechanism;
@@ -71,15 +71,23 @@ pub(super) fn add(
         };
         solution.margin = all.end_of(&solution.pattern).map(margin);
     }
+    let falling = Growth::over(FALLING, data, &|_| true);
     // Where there is no solution, less friction may leave one.
     let is_jammed = all.counts.first().is_some_and(CountInterval::is_empty);
-    let falling = is_jammed.then(|| Growth::over(FALLING, data, &|_| true)).flatten();
+    let stands = falling.as_ref().filter(|falling| {
+        falling.existence.not_computed.is_empty() && Upright::of(&all.existence, mechanism).is_some()
+    });
+    let below = stands.and_then(|falling| Upright::below(&falling.existence, mechanism));
+    let tips_between = falling.as_ref().and_then(|falling| all.tips_between(falling, mechanism));
+    let falling = falling.filter(|_| is_jammed);
     report.margins = Some(Margins {
         mu: common_coefficient(mechanism),
         another_count: all.another_count(),
         no_solution: all.no_solution(),
         tips: all.tips(mechanism),
         tipping: all.tipping(mechanism),
+        below: below.map(|Upright { until, tips }| TippingLimit { factor: until, joints: tips }),
+        tips_between,
         solutions_again: all.solutions_again(),
         uniqueness: enclosed.and_then(|enclosed| uniqueness(data, &all, enclosed)),
         moves_below: falling.as_ref().and_then(|falling| falling.moves_below(mechanism)),
@@ -243,6 +251,20 @@ impl Growth {
         let Upright { until, tips } = Upright::of(&self.existence, mechanism)?;
         let is_before = self.no_solution().is_none_or(|jams| !is_same_end(jams, until));
         (is_before && !tips.is_empty()).then_some(TippingLimit { factor: until, joints: tips })
+    }
+
+    /// Between which factors a block tips that does as it is: from where nothing tips with less friction, up to where nothing
+    /// does with more; none where nothing tips, and of an end that is not there.
+    fn tips_between(&self, falling: &Self, mechanism: &Mechanism) -> Option<[Option<f64>; 2]> {
+        let tips = |mode: &&ModeInterval| !mechanism.tipped(&mode.pattern).is_empty();
+        let now = |mode: &&ModeInterval| mode.from.at <= 1.0 + AT_ONCE;
+        self.existence.modes.iter().filter(now).find(tips)?;
+        if Upright::of(&self.existence, mechanism).is_some() {
+            return None;
+        }
+        let from = upright(&falling.existence, mechanism).map(|mode| mode.to.at).reduce(f64::max);
+        let to = upright(&self.existence, mechanism).map(|mode| mode.from.at).reduce(f64::min);
+        Some([from, to])
     }
 
     /// The factor beyond that from which on there are solutions or gap states again.

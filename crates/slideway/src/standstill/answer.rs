@@ -6,6 +6,7 @@ use super::report::{
     BeyondHeld, CoordinateRange, FrictionNeeded, HoldReport, HoldVerdict, JointRelease, LoadReport, Range,
     Release, Threshold, Wedging,
 };
+use crate::report::capital;
 use crate::units::number::brief;
 
 /// The verdict on rest, and which loads it holds: "It holds.", "Self-locking: it holds any `screw` from
@@ -266,9 +267,7 @@ fn beyond(report: &HoldReport, load: &LoadReport) -> Option<String> {
         let at = if load.unit.is_empty() { format!("{} times", brief(end.at)) } else { unit.brief(end.at) };
         format!("{side} {at} {}", end.words)
     };
-    let mut told = load.beyond.iter().map(one).collect::<Vec<_>>().join(", ");
-    told[..1].make_ascii_uppercase();
-    Some(told + ".")
+    Some(capital(&load.beyond.iter().map(one).collect::<Vec<_>>().join(", ")) + ".")
 }
 
 /// True if only none of the load is held.
@@ -298,7 +297,7 @@ fn locks(load: &LoadReport, holds_all: bool) -> String {
             }
             (false, _) => {
                 format!(
-                    "Not self-locking: a great enough `{name}` moves it. It would be self-locking {from}."
+                    "Not self-locking: `{name}` moves it if great enough. It would be self-locking {from}."
                 )
             }
         };

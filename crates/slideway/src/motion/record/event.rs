@@ -2,7 +2,7 @@
 
 use crate::configuration::Configuration;
 use crate::ids::{BodyId, ContactId, Frame, JointId};
-use crate::mechanism::{Mechanism, Slider};
+use crate::mechanism::{LOOSE_FACES, Mechanism, Slider, rot90};
 use crate::model::SliderKind;
 use crate::modes::Side;
 use crate::motion::decision::rules::Continuation;
@@ -91,8 +91,12 @@ impl Words<'_> {
                 parts.extend(self.changes_of_turning(causes, before, after));
             } else {
                 let told = self.sliders.iter().enumerate().filter(|(_, joint)| !self.needs_no_words(**joint));
-                parts.extend(told.map(|(index, joint)| {
-                    format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))
+                parts.extend(told.filter_map(|(index, joint)| match self.other_face(*joint) {
+                    Some(other) if other < *joint => None,
+                    Some(other) => {
+                        Some(format!("{} {}", self.name(*joint), self.between_faces([*joint, other], after)))
+                    }
+                    None => Some(format!("{} {}", self.name(*joint), self.state("is", index, *joint, after))),
                 }));
                 parts.extend(self.hinges(after).map(|(joint, state)| match state {
                     JointPhase::Sticking => format!("{} sticks", self.name(joint)),
@@ -189,7 +193,11 @@ impl Words<'_> {
         let slider = self.mechanism.slider(self.mechanism.contacts[contact.index()].joint);
         let body = slider.and_then(|slider| slider.block.body().or(slider.guide.body()));
         let body = body.map_or("it", |body| &self.mechanism.bodies[body.index()].name);
-        format!("{body} hits at {}", self.contact(contact))
+        let (joint, name) = (self.mechanism.contacts[contact.index()].joint, self.contact(contact));
+        if self.other_face(joint).is_some() {
+            return format!("{body} hits the {} face at {}", self.face(joint), loose_place(name));
+        }
+        format!("{body} hits at {name}")
     }
 
     /// What differs between two phases, joint by joint.
@@ -199,6 +207,11 @@ impl Words<'_> {
             let stops = causes.contains(&Cause::Stops(*joint));
             if self.needs_no_words(*joint) {
                 return None;
+            }
+            if let Some(other) = self.other_face(*joint) {
+                let both = [*joint, other];
+                let [old, new] = [before, after].map(|phase| self.between_faces(both, phase));
+                return (*joint < other && old != new).then(|| format!("{name} now {new}"));
             }
             if let Some(lifts) = self.lifting(causes, index, *joint, [before, after]) {
                 return Some(lifts);
@@ -244,6 +257,56 @@ impl Words<'_> {
             Some(told)
         };
         self.sliders.iter().enumerate().filter_map(one).collect()
+    }
+
+    /// The other face of a loose guide.
+    fn other_face(&self, joint: JointId) -> Option<JointId> {
+        other_face(self.mechanism, joint)
+    }
+
+    /// What a block does between both faces of its loose guide: "is wedged between both faces (rails.front on the lower one,
+    /// rails.rear on the upper one), which hold it", "touches the lower face (rails.front), sliding to the right".
+    fn between_faces(&self, faces: [JointId; 2], phase: &Phase) -> String {
+        let closed = |joint: JointId| -> Vec<ContactId> {
+            let contacts = self.mechanism.slider(joint).map_or(&[][..], |slider| &slider.contacts);
+            contacts.iter().copied().filter(|k| !phase.is_open(self.mechanism, k.index())).collect()
+        };
+        let touching = faces.into_iter().filter(|joint| !closed(*joint).is_empty());
+        let touching: Vec<JointId> = touching.collect();
+        let place = |joint: JointId| self.sliders.iter().position(|one| *one == joint);
+        let state = |joint: JointId| Some((phase.joints[place(joint)?], self.mechanism.slider(joint)?));
+        let how =
+            touching.first().and_then(|joint| state(*joint)).map_or(String::new(), |state| match state {
+                (JointPhase::Sticking, _) => "sticks".to_owned(),
+                (JointPhase::Sliding(sign), slider) => self.sliding(slider, sign),
+            });
+        let names = |joint: JointId| {
+            let names =
+                closed(joint).into_iter().map(|k| loose_place(&self.mechanism.contacts[k.index()].name));
+            names.collect::<Vec<_>>().join(" and ")
+        };
+        match touching.as_slice() {
+            [] => "touches neither face".to_owned(),
+            [one] => format!("touches the {} face ({}), {how}", self.face(*one), names(*one)),
+            both => {
+                let wedged = if how == "sticks" { "sticks, wedged" } else { "is askew" };
+                let at = |joint: &JointId| format!("{} on the {} one", names(*joint), self.face(*joint));
+                let at = both.iter().map(at).collect::<Vec<_>>().join(", ");
+                let how = if how == "sticks" { String::new() } else { format!(", {how}") };
+                format!("{wedged} between both faces ({at}){how}")
+            }
+        }
+    }
+
+    /// Where a face of a loose guide is, as one looks at the drawing: "lower".
+    fn face(&self, joint: JointId) -> &'static str {
+        let Some(slider) = self.mechanism.slider(joint) else { return "other" };
+        match direction_in_words(-rot90(self.configuration.slide(self.mechanism, slider).tangent)) {
+            "up" => "upper",
+            "down" => "lower",
+            "to the right" => "right",
+            _ => "left",
+        }
     }
 
     /// The corner on which a block has tipped: when that stops, the block goes on turning about it.
@@ -370,7 +433,12 @@ impl Words<'_> {
             }
             (JointPhase::Sliding(_), Some(slider)) if self.is_apart(slider, phase) => "is apart".to_owned(),
             (JointPhase::Sliding(sign), Some(slider)) => {
-                format!("{}, {}", self.mode(verb, joint, phase), self.sliding(slider, sign))
+                let (mode, sliding) = (self.mode(verb, joint, phase), self.sliding(slider, sign));
+                // All of it touches, as it does wherever it slides.
+                match sliding.strip_prefix("sliding ") {
+                    Some(way) if mode == format!("{verb} closed") => format!("slides {way}"),
+                    _ => format!("{mode}, {sliding}"),
+                }
             }
             (JointPhase::Sticking, Some(slider)) => self.sticks(slider, phase),
             _ => "sticks".to_owned(),
@@ -444,13 +512,41 @@ pub(in crate::motion) fn moving(mechanism: &Mechanism, joint: JointId) -> &str {
         let slider = mechanism.slider(joint).filter(|slider| slider.kind != SliderKind::Pin)?;
         slider.block.body()
     };
+    let other = other_face(mechanism, joint);
     let is_only = |body: BodyId| {
-        sliding_joints(mechanism).into_iter().filter(|other| block(*other) == Some(body)).count() == 1
+        let mut others =
+            sliding_joints(mechanism).into_iter().filter(|one| *one != joint && Some(*one) != other);
+        !others.any(|one| block(one) == Some(body))
     };
     match block(joint).filter(|body| is_only(*body)) {
         Some(body) => &mechanism.bodies[body.index()].name,
         None => &mechanism.joints[joint.index()].name,
     }
+}
+
+/// The other of both joints that a loose guide becomes.
+fn other_face(mechanism: &Mechanism, joint: JointId) -> Option<JointId> {
+    let is_loose = |joint: &JointId| mechanism.slider(*joint).is_some_and(|slider| slider.loose);
+    let name = |joint: JointId| loose_place(&mechanism.joints[joint.index()].name);
+    let mut others = sliding_joints(mechanism).into_iter().filter(|one| *one != joint && is_loose(one));
+    others.find(|one| is_loose(&joint) && name(*one) == name(joint))
+}
+
+/// Whether a block is held between both faces of a loose guide.
+pub(in crate::motion) fn is_wedged(mechanism: &Mechanism, phase: &Phase) -> bool {
+    let touches = |joint: JointId| {
+        let slider = mechanism.slider(joint);
+        slider.is_some_and(|slider| slider.contacts.iter().any(|k| !phase.is_open(mechanism, k.index())))
+    };
+    sliding_joints(mechanism)
+        .into_iter()
+        .any(|joint| touches(joint) && other_face(mechanism, joint).is_some_and(touches))
+}
+
+/// The name of a joint or contact of a loose guide without that of its face.
+fn loose_place(name: &str) -> &str {
+    let face = LOOSE_FACES.iter().find_map(|face| name.strip_suffix(face)?.strip_suffix('.'));
+    face.unwrap_or(name)
 }
 
 /// Which end of a travel.

@@ -4,7 +4,7 @@ use super::stick_slip::stick_slip;
 use crate::ids::JointId;
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
-use crate::motion::record::event::{Event, moving};
+use crate::motion::record::event::{Event, is_wedged, moving};
 use crate::motion::record::history::{End, History};
 use crate::report::{SHOWN_BY, it_tips};
 
@@ -101,7 +101,9 @@ fn finished(history: &History, time: &str) -> String {
     if rest.from <= history.start() {
         return format!("It stays at rest until {time}{}.{jams}", held_by_drives(history));
     }
-    format!("It comes to rest at {from} and stays so until {time}.{jams}")
+    let wedged = is_wedged(&history.mechanism, &rest.phase);
+    let wedged = if wedged { ", wedged between both faces of its guide," } else { "" };
+    format!("It comes to rest at {from}{wedged} and stays so until {time}.{jams}")
 }
 
 /// ", as the drive motor prescribes", where drives prescribe all motion: what rests then does so with or without friction.

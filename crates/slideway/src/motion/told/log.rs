@@ -18,9 +18,9 @@ pub(super) enum LogLine<'a> {
     Event(&'a EventReport),
     /// So many events that are not shown.
     LeftOut(usize),
-    /// So many bounces, and so many events in all: each bounce at the stop of the line before, and weaker.
+    /// So many bounces, and so many events in all: each bounce where the line before hits, and weaker.
     Bounces {
-        /// Times that the stop is hit.
+        /// Times that the same is hit.
         hits: usize,
         /// Hits, and where it turns round between them.
         events: usize,
@@ -46,10 +46,12 @@ pub(super) fn lines(events: &[EventReport], all: bool) -> Vec<LogLine<'_>> {
     while let Some(event) = events.get(next) {
         lines.push(LogLine::Event(event));
         // The last bounce is an event again: it tells whether what bounces has come to rest.
-        let hits = dying_bounces(&events[next..]).saturating_sub(1);
+        let (hits, between) = dying_bounces(&events[next..]);
+        let hits = hits.saturating_sub(1);
         if hits >= BOUNCES {
-            lines.push(LogLine::Bounces { hits, events: 2 * hits + 1 });
-            next += 2 * hits + 1;
+            let events = (hits + 1) * between + hits;
+            lines.push(LogLine::Bounces { hits, events });
+            next += events;
         }
         next += 1;
     }
@@ -61,24 +63,28 @@ pub(super) fn lines(events: &[EventReport], all: bool) -> Vec<LogLine<'_>> {
     lines
 }
 
-/// How many bounces follow the hit that is the first event, each at the same stop, as the joint turns round before it, and
-/// with a smaller loss of energy.
-fn dying_bounces(events: &[EventReport]) -> usize {
+/// How many bounces follow the hit that is the first event, each where that hits and with a smaller loss of energy, and how many
+/// events are between two: at a stop the joint turns round before each; at a face that is left it does not.
+fn dying_bounces(events: &[EventReport]) -> (usize, usize) {
+    let is_plain = |event: &EventReport| event.branches.is_empty() && !event.branches_left_out;
     let only = |event: &EventReport, kind: CauseKind| match event.causes.as_slice() {
-        [cause] if cause.kind == kind && event.branches.is_empty() && !event.branches_left_out => {
-            cause.of.clone()
-        }
+        [cause] if cause.kind == kind && is_plain(event) => cause.of.clone(),
         _ => None,
     };
-    let Some(joint) = events.first().and_then(|event| only(event, CauseKind::Hits)) else { return 0 };
-    let mut lost = events[0].energy_lost;
+    let Some(first) = events.first().filter(|event| is_plain(event)) else { return (0, 0) };
+    let mut lost = first.energy_lost;
+    let mut is_weaker =
+        |event: &EventReport| event.energy_lost < std::mem::replace(&mut lost, event.energy_lost);
+    if !first.causes.is_empty() && first.causes.iter().all(|cause| cause.kind == CauseKind::Lands) {
+        let same = |event: &&EventReport| event.causes == first.causes && is_plain(event) && is_weaker(event);
+        return (events[1..].iter().take_while(same).count(), 0);
+    }
+    let Some(joint) = only(first, CauseKind::Hits) else { return (0, 0) };
     let bounces = events[1..].chunks_exact(2).take_while(|pair| {
-        let is_weaker = pair[1].energy_lost < lost;
-        lost = pair[1].energy_lost;
         let turns = only(&pair[0], CauseKind::Stops).as_ref() == Some(&joint);
-        turns && only(&pair[1], CauseKind::Hits).as_ref() == Some(&joint) && is_weaker
+        turns && only(&pair[1], CauseKind::Hits).as_ref() == Some(&joint) && is_weaker(&pair[1])
     });
-    bounces.count()
+    (bounces.count(), 1)
 }
 
 #[cfg(test)]
@@ -124,6 +130,14 @@ mod tests {
             (0..9).map(|place| if place % 2 == 0 { (hit, 1.0) } else { (turn, 0.0) }).collect();
         let between: Vec<(CauseKind, f64)> = (0..9).map(|place| (hit, 9.0 - f64::from(place))).collect();
         assert_eq!([told(&steady, false).len(), told(&between, false).len()], [9, 9]);
+    }
+
+    /// Between two hits of a face that is left nothing else happens.
+    #[test]
+    fn chatter_on_a_face_is_one_line() {
+        let lands: Vec<(CauseKind, f64)> =
+            (0..8).map(|place| (CauseKind::Lands, 9.0 - f64::from(place))).collect();
+        assert_eq!(told(&lands, false), ["0", "6 hits in 6", "7"]);
     }
 
     #[test]

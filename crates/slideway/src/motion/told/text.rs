@@ -174,7 +174,7 @@ impl Page<'_, SimulateReport> {
                     self.line(&format!("  ... {left_out} left out here; --all-events shows them"));
                 }
                 LogLine::Bounces { hits, .. } => self.line(&format!(
-                    "  ... it hits this stop {hits} times more, ever less; --all-events shows them"
+                    "  ... it hits there {hits} times more, ever less; --all-events shows them"
                 )),
             }
         }
@@ -307,7 +307,7 @@ fn unsettled(verdict: Verdict) -> &'static str {
 fn verdict(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Attainable => " (stable)",
-        Verdict::Unattainable => " (unstable)",
+        Verdict::Unattainable => " (unstable: it leaves this state)",
         Verdict::Flutter => " (it may vibrate)",
         Verdict::Undecided | Verdict::NotComputed => "",
     }
