@@ -167,6 +167,7 @@ __all__ = [
     "Rejection",
     "Release",
     "RestLimitsReport",
+    "RoundEnd",
     "Sample",
     "SampleKind",
     "SampledReport",
@@ -483,6 +484,7 @@ MarginsMissing = Literal[
     "floats",
     "undetermined",
     "friction_in_hinges",
+    "friction_on_rods",
 ]
 """Why margins of friction were not computed.
 
@@ -491,7 +493,8 @@ MarginsMissing = Literal[
 - `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face.
 - `"floats"`: The block floats within the play of redundant guides.
 - `"undetermined"`: There are infinitely many solutions.
-- `"friction_in_hinges"`: Solutions with friction in hinges are not followed all together."""
+- `"friction_in_hinges"`: Solutions with friction in hinges are not followed all together.
+- `"friction_on_rods"`: Nor are those with friction on round rods."""
 
 MetEnd = Literal["range", "margin", "jump", "no_position"]
 """Why an interval ends in which the wanted margin is met.
@@ -2809,6 +2812,20 @@ class RestLimitsReport(_mixins.RestLimitsReport, Report):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class RoundEnd(Record):
+    """An end of a block on a round rod. Among the contacts it has two parts, along n and along z."""
+
+    name: str
+    """"joint.front" or "joint.rear", or with the name of a support."""
+    normal_force: float
+    """The force of the rod on the block across it (N)."""
+    direction: float
+    """Where that pushes the block: an angle from n towards z (rad)."""
+    friction_force: float
+    """Friction force, positive against positive sliding (N)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Sample(Record):
     """The margin at a value."""
 
@@ -2977,6 +2994,8 @@ class Solution(_mixins.Solution, Record):
     """The contact mode of each sliding joint."""
     hinges: tuple[Hinge, ...]
     """The hinge forces."""
+    round_ends: tuple[RoundEnd, ...] = ()
+    """The ends of blocks on round rods; absent without."""
     carried: tuple[Carried, ...] = ()
     """What joints carry out of the drawing without friction; absent of a planar model."""
     bodies: tuple[Body, ...]
