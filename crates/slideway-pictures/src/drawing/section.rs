@@ -185,7 +185,7 @@ impl<'a> Painter<'a> {
             match end_of(*k) {
                 None => self.force_in_section(section, (*k, contact), section.drawn(*place)),
                 Some(end) if end[0] == *k => {
-                    self.force_of_end(section, (*end, contact), section.drawn(*place));
+                    self.force_of_end((*end, contact), section.drawn(*place));
                 }
                 Some(_) => {}
             }
@@ -243,7 +243,7 @@ impl<'a> Painter<'a> {
     }
 
     /// The force of a round rod on an end of the block, across it.
-    fn force_of_end(&mut self, section: &Section<'_>, (parts, contact): ([usize; 2], &Contact), at: Point) {
+    fn force_of_end(&mut self, (parts, contact): ([usize; 2], &Contact), at: Point) {
         let forces = parts.map(|k| self.states.contacts.get(k).and_then(|state| state.forces));
         let ([Some(along_n), Some(along_z)], Some(scale)) = (forces, self.options.force_scale) else {
             return;
@@ -255,13 +255,8 @@ impl<'a> Painter<'a> {
         let name = contact.name.rsplit_once('.').map_or(&*contact.name, |(_, end)| end);
         let text = format!("{name} {}", self.shown(force.norm(), "N"));
         let towards = direction(force / force.norm());
-        let from = at + towards * ROD;
-        self.arrow_of_force(
-            Class::Reaction,
-            (from, !section.slider.around),
-            towards * (force.norm() * scale),
-            text,
-        );
+        let from = (at + towards * ROD, false);
+        self.arrow_of_force(Class::Reaction, from, towards * (force.norm() * scale), text);
     }
 
     /// The normal force of a contact on the block.
