@@ -810,6 +810,9 @@ impl FaultKind {
     /// Hints about joints in space.
     fn hint_in_space(&self) -> Option<&'static str> {
         Some(match self {
+            Self::NotCarried { motion, .. } if motion.starts_with("turning about the rod") => {
+                "a rod alone does not: give the joint a key beside it, `supports = { key = { at = 0, aside = \"50 mm\", normal = \"90 deg\", mu = 0 } }`, give the body a second guide, or let the joint carry it without friction: `carries = [\"roll\"]`"
+            }
             Self::NotCarried { .. } => {
                 "give its sliding joint `supports` with `normal = \"90 deg\"`, at different places `at`, `aside` and `z`, or let a joint carry it without friction: `carries = [\"z\", \"roll\", \"pitch\"]`; of a flat drawing leave out every third coordinate"
             }

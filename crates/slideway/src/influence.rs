@@ -12,6 +12,7 @@
 
 use crate::ids::{ContactId, JointId};
 use crate::kinetics::{Influences, KineticEquations, Layout, Opening, Reaction};
+use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::units::number::beside;
 use nalgebra::{DMatrix, DVector};
 
@@ -67,6 +68,16 @@ pub struct HingeState {
     pub(crate) force: [f64; 2],
     /// Its friction couple on the first body (N m).
     pub(crate) couple: f64,
+}
+
+impl Mechanism {
+    /// The friction forces of round ends, positive against positive sliding, each with the contact along n at which it is told.
+    pub(crate) fn friction_of_ends(&self, states: &[HingeState]) -> impl Iterator<Item = (usize, f64)> {
+        states.iter().filter_map(|state| {
+            let [along_n, _] = self.friction_circles[state.circle].end?;
+            Some((along_n.index(), -state.couple))
+        })
+    }
 }
 
 impl Influence {
@@ -140,15 +151,12 @@ impl Influence {
         self.openings.iter().map(|Opening { contact, answer, .. }| (*contact, part(answer))).collect()
     }
 
-    /// Places among all unknowns: of the normal forces, then of both components of the hinge forces of these friction
-    /// circles.
-    pub(crate) fn block_rows(&self, hinges: &[JointId]) -> Vec<usize> {
-        let component = |joint: &JointId| {
-            [0, 1].map(|axis| {
-                self.layout.reaction(Reaction::Hinge(*joint, axis)).expect("every hinge has a force")
-            })
+    /// Places among all unknowns: of the normal forces, then of both components of the forces of these friction circles.
+    pub(crate) fn block_rows(&self, circles: &[&FrictionCircle]) -> Vec<usize> {
+        let component = |circle: &&FrictionCircle| {
+            circle.reactions().map(|force| self.layout.reaction(force).expect("every circle has a force"))
         };
-        self.normal.iter().copied().chain(hinges.iter().flat_map(component)).collect()
+        self.normal.iter().copied().chain(circles.iter().flat_map(component)).collect()
     }
 
     /// Returns the contribution of the friction couples of hinges to all unknowns.

@@ -225,8 +225,11 @@ impl Drawn<'_> {
     fn why_no_jam(&self) -> Option<String> {
         let report =
             self.report.filter(|report| report.status == Status::None && report.rejected.is_empty())?;
-        let has_rough_hinges = self.mechanism.friction_circles.iter().any(|circle| circle.radius > 0.0);
-        let why = if has_rough_hinges {
+        let mut rough =
+            self.mechanism.friction_circles.iter().filter(|circle| circle.radius > 0.0).peekable();
+        let why = if rough.peek().is_some_and(|circle| circle.end.is_some()) {
+            "with friction on round rods they are not computed"
+        } else if rough.peek().is_some() {
             "with friction in hinges they are not computed"
         } else if report.margins_missing == Some(MarginsMissing::TooManyModes) {
             "it has too many contacts"

@@ -17,6 +17,8 @@ const GAP: f64 = 5.0;
 const PAD: f64 = 5.0;
 /// How far the arrows of contacts at the rear stand beside those at the front.
 const ASIDE: f64 = 6.0;
+/// Radius of a round rod.
+const ROD: f64 = 9.0;
 /// Length of the arrows of axes.
 const AXIS: f64 = 26.0;
 
@@ -185,11 +187,28 @@ impl<'a> Painter<'a> {
             self.area(Class::Body, corners);
         }
         let contacts = self.in_section(section);
-        for (_, contact, place) in &contacts {
-            self.faces_of(section, contact, section.drawn(*place));
+        let ends: Vec<[usize; 2]> = self
+            .mechanism
+            .friction_circles
+            .iter()
+            .filter_map(|circle| circle.end.map(|end| end.map(ContactId::index)))
+            .collect();
+        let end_of = |k: usize| ends.iter().find(|end| end.contains(&k));
+        for (k, contact, place) in &contacts {
+            match end_of(*k) {
+                None => self.faces_of(section, contact, section.drawn(*place)),
+                Some([along_n, _]) if along_n == k => self.rod(section.drawn(*place)),
+                Some(_) => {}
+            }
         }
         for (k, contact, place) in &contacts {
-            self.force_in_section(section, (*k, contact), section.drawn(*place));
+            match end_of(*k) {
+                None => self.force_in_section(section, (*k, contact), section.drawn(*place)),
+                Some(end) if end[0] == *k => {
+                    self.force_of_end((*end, contact), section.drawn(*place));
+                }
+                Some(_) => {}
+            }
         }
         let mut signs: Vec<Point> = Vec::new();
         for load in loads {
@@ -240,6 +259,29 @@ impl<'a> Painter<'a> {
                 self.hatching(from, to);
             }
         }
+    }
+
+    /// A round rod, and the ring of the block around it.
+    fn rod(&mut self, at: Point) {
+        self.circle(Class::Pad, at, ROD + GAP);
+        self.circle(Class::Wall, at, ROD);
+    }
+
+    /// The force of a round rod on an end of the block, across it.
+    fn force_of_end(&mut self, (parts, contact): ([usize; 2], &Contact), at: Point) {
+        let forces = parts.map(|k| self.states.contacts.get(k).and_then(|state| state.forces));
+        let ([Some(along_n), Some(along_z)], Some(scale)) = (forces, self.options.force_scale) else {
+            return;
+        };
+        let force = Vector2::new(along_n.normal, along_z.normal);
+        if force.norm() == 0.0 {
+            return;
+        }
+        let name = contact.name.rsplit_once('.').map_or(&*contact.name, |(_, end)| end);
+        let text = format!("{name} {}", self.shown(force.norm(), "N"));
+        let towards = direction(force / force.norm());
+        let from = (at + towards * ROD, false);
+        self.arrow_of_force(Class::Reaction, from, towards * (force.norm() * scale), text);
     }
 
     /// The normal force of a contact on the block.

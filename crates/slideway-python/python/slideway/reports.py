@@ -167,6 +167,7 @@ __all__ = [
     "Rejection",
     "Release",
     "RestLimitsReport",
+    "RoundEnd",
     "Sample",
     "SampleKind",
     "SampledReport",
@@ -331,6 +332,7 @@ EndKind = Literal[
     "travel_limit",
     "overlap_vanished",
     "beside_face",
+    "out_of_plane",
     "bare_corner",
     "reaction_limit",
     "user_event",
@@ -351,6 +353,7 @@ EndKind = Literal[
 - `"travel_limit"`: A joint reaches a limit of its travel.
 - `"overlap_vanished"`: A block leaves its guide.
 - `"beside_face"`: A contact that was open reaches the line of its face beyond the ends of the face.
+- `"out_of_plane"`: A contact lifts off in space, and its body leaves the plane of its motion.
 - `"bare_corner"`: A corner reaches a face where the model has no contact.
 - `"reaction_limit"`: A normal force reaches its limit.
 - `"user_event"`: An event of the model that stops the motion.
@@ -484,6 +487,7 @@ MarginsMissing = Literal[
     "floats",
     "undetermined",
     "friction_in_hinges",
+    "friction_on_rods",
 ]
 """Why margins of friction were not computed.
 
@@ -492,7 +496,8 @@ MarginsMissing = Literal[
 - `"nothing_presses"`: Nothing presses a contact, so that its preload may rub at either face.
 - `"floats"`: The block floats within the play of redundant guides.
 - `"undetermined"`: There are infinitely many solutions.
-- `"friction_in_hinges"`: Solutions with friction in hinges are not followed all together."""
+- `"friction_in_hinges"`: Solutions with friction in hinges are not followed all together.
+- `"friction_on_rods"`: Nor are those with friction on round rods."""
 
 MetEnd = Literal["range", "margin", "jump", "no_position"]
 """Why an interval ends in which the wanted margin is met.
@@ -2820,6 +2825,20 @@ class RestLimitsReport(_mixins.RestLimitsReport, Report):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
+class RoundEnd(Record):
+    """An end of a block on a round rod. Among the contacts it has two parts, along n and along z."""
+
+    name: str
+    """"joint.front" or "joint.rear", or with the name of a support."""
+    normal_force: float
+    """The force of the rod on the block across it (N)."""
+    direction: float
+    """Where that pushes the block: an angle from n towards z (rad)."""
+    friction_force: float
+    """Friction force, positive against positive sliding (N)."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Sample(Record):
     """The margin at a value."""
 
@@ -2992,6 +3011,8 @@ class Solution(_mixins.Solution, Record):
     """The contact mode of each sliding joint."""
     hinges: tuple[Hinge, ...]
     """The hinge forces."""
+    round_ends: tuple[RoundEnd, ...] = ()
+    """The ends of blocks on round rods; absent without."""
     carried: tuple[Carried, ...] = ()
     """What joints carry out of the drawing without friction; absent of a planar model."""
     bodies: tuple[Body, ...]

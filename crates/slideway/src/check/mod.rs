@@ -195,7 +195,7 @@ fn face_form(slider: &Slider) -> JointForm {
 
 fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSummary> {
     let one = |(index, joint): (usize, &crate::mechanism::Joint)| {
-        let circle = mechanism.friction_circle(JointId(index));
+        let circle = mechanism.friction_circle(JointId(index)).filter(|circle| circle.end.is_none());
         let (kind, frames, constraints, slider) = match &joint.kind {
             JointKind::Hinge([first, second]) => (JointForm::Hinge, [first.frame, second.frame], 2, None),
             JointKind::Slider(slider) => {
@@ -235,9 +235,11 @@ fn contacts(mechanism: &Mechanism, configuration: &Configuration, assembled: boo
     };
     let summary = |id: ContactId, contact: &crate::mechanism::Contact| ContactSummary {
         name: contact.place().to_owned(),
-        mu: faces(contact, contact.mu),
+        mu: mechanism.end_of(id.index()).map_or(faces(contact, contact.mu), |end| [end.radius; 2]),
         mu_depends_on_speed: contact.depends_on_speed(),
-        mu_static: faces(contact, contact.mu_static),
+        mu_static: mechanism
+            .end_of(id.index())
+            .map_or(faces(contact, contact.mu_static), |end| [end.static_radius; 2]),
         // Each face of a press fit has half of it.
         preload: contact.preload.map(|preload| if contact.face.is_some() { 2.0 * preload } else { preload }),
         sliding_velocity: assembled.then(|| configuration.contact(mechanism, id).sliding_velocity),

@@ -40,7 +40,8 @@ use crate::fault::{Fault, Faults};
 use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::Real;
 use crate::mechanism::{
-    Attachment, Contact, CoordinateKind, Mechanism, Pad, Pieces, Quantity, Slider, length, rot90,
+    Attachment, Contact, CoordinateKind, FrictionCircle, Mechanism, Pad, Pieces, Quantity, Slider, length,
+    rot90,
 };
 use crate::model::{Round, SliderKind};
 use crate::progress::{Callback, Progress};
@@ -219,6 +220,14 @@ impl<T: Real> Configuration<T> {
             self.angular_velocity(first.frame) - self.angular_velocity(second.frame)
         };
         mechanism.hinge(joint).map_or(T::zero(), turning)
+    }
+
+    /// How fast a hinge turns (rad/s), or the block of a round end slides (m/s).
+    pub(crate) fn rubbing(&self, mechanism: &Mechanism<T>, circle: &FrictionCircle<T>) -> T {
+        match circle.end {
+            None => self.spin(mechanism, circle.joint),
+            Some([along_n, _]) => self.contact(mechanism, along_n).sliding_velocity,
+        }
     }
 
     /// Sets the values of the chosen coordinates and their rates to those of the poses and velocities.

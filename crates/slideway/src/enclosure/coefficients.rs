@@ -50,7 +50,8 @@ impl Coefficients<'_> {
     ) -> Result<(InfluenceCoefficients<Interval>, EnclosedOutputs), NotEnclosed> {
         let layout = &self.equations.layout;
         let normals = (0..self.mechanism.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
-        let forces = hinges.iter().flat_map(|hinge| [0, 1].map(|axis| Reaction::Hinge(hinge.joint, axis)));
+        let forces =
+            hinges.iter().flat_map(|hinge| self.mechanism.friction_circles[hinge.circle].reactions());
         let rows: Option<Vec<usize>> = normals.chain(forces).map(|force| layout.reaction(force)).collect();
         let rows = rows.ok_or(NotEnclosed::Equations)?;
         let (couples, places): (Vec<EnclosedCouple>, Vec<usize>) = self.couples().into_iter().unzip();
@@ -243,7 +244,7 @@ impl Coefficients<'_> {
             }
         }
         for (index, circle) in self.mechanism.friction_circles.iter().enumerate() {
-            power[self.first_couple() + index] = self.configuration.spin(self.mechanism, circle.joint);
+            power[self.first_couple() + index] = self.configuration.rubbing(self.mechanism, circle);
         }
         power
     }
@@ -370,14 +371,23 @@ impl Coefficients<'_> {
     /// The hinges, with a certain sense of every one.
     pub(super) fn rubbing(&self, hinges: &[TurningHinge]) -> Result<Vec<RubbingHinge>, NotEnclosed> {
         let one = |hinge: &TurningHinge| {
-            let spin = self.configuration.spin(self.mechanism, hinge.joint);
+            let circle = &self.mechanism.friction_circles[hinge.circle];
+            let spin = self.configuration.rubbing(self.mechanism, circle);
             let wanted = if hinge.sense > 0.0 { Sign::Positive } else { Sign::Negative };
             if spin.sign() == Some(wanted) {
-                let leverage = hinge.leverage(&self.mechanism.friction_circles[hinge.circle]);
+                let leverage = hinge.leverage(circle);
                 Ok(RubbingHinge { column: self.first_couple() + hinge.circle, leverage })
             } else {
-                let hinge = self.mechanism.joints[hinge.joint.index()].name.to_string();
-                Err(NotEnclosed::SenseOfRotation { hinge, spin })
+                Err(match circle.end {
+                    None => {
+                        let hinge = self.mechanism.joints[hinge.joint.index()].name.to_string();
+                        NotEnclosed::SenseOfRotation { hinge, spin }
+                    }
+                    Some([along_n, _]) => {
+                        let contact = self.mechanism.contacts[along_n.index()].name.to_string();
+                        NotEnclosed::SlidingDirection { contact, velocity: spin }
+                    }
+                })
             }
         };
         hinges.iter().map(one).collect()

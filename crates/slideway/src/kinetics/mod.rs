@@ -39,7 +39,7 @@ use crate::configuration::{Configuration, ContactGeometry, motion_in_words, move
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Contact, JointKind, Load, Mechanism, Slider};
+use crate::mechanism::{Contact, FrictionCircle, JointKind, Load, Mechanism, Slider};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
@@ -517,8 +517,11 @@ impl<T: Real> Assembled<T> {
         let cut_rows = builder.cut(&mut matrix, &mut constraints);
         let load = builder.load(&applied, &constraints, &coordinate_rows)?;
         let friction = (0..contacts.len()).map(|k| builder.friction(ContactId(k), &contacts[k])).collect();
-        let couples =
-            mechanism.friction_circles.iter().map(|circle| builder.friction_couple(circle.joint)).collect();
+        let couples = mechanism
+            .friction_circles
+            .iter()
+            .map(|circle| builder.friction_couple(circle, &contacts))
+            .collect();
         Ok(Self { layout, contacts, applied, matrix, load, friction, couples, coordinate_rows, cut_rows })
     }
 
@@ -628,10 +631,10 @@ impl<T: Real> Builder<'_, T> {
         })
     }
 
-    /// A unit couple on the first body of a hinge, and its opposite on the second.
-    fn friction_couple(&self, joint: JointId) -> DVector<T> {
+    /// A unit couple on the first body of a hinge, and its opposite on the second; of a round end a unit force.
+    fn friction_couple(&self, circle: &FrictionCircle<T>, contacts: &[ContactGeometry<T>]) -> DVector<T> {
         let mut column = DVector::zeros(self.layout.len());
-        for wrench in self.mechanism.friction_couple(joint, T::one()) {
+        for wrench in self.mechanism.friction_couple(circle, contacts, T::one()) {
             wrench.add_to(self.mechanism, self.configuration, |row, value| column[row] += value);
         }
         column
@@ -690,10 +693,39 @@ impl Builder<'_> {
 }
 
 impl<T: Real> Mechanism<T> {
-    /// A friction couple on the first body of a hinge, and its opposite on the second.
-    pub(crate) fn friction_couple(&self, joint: JointId, couple: T) -> Vec<Wrench<T>> {
-        let JointKind::Hinge([first, second]) = &self.joints[joint.index()].kind else { return Vec::new() };
-        vec![Wrench::couple(first.frame, couple), Wrench::couple(second.frame, -couple)]
+    /// A friction couple on the first body of a hinge, and its opposite on the second; of a round end a force along the rod
+    /// on the block, and its opposite on the guide.
+    pub(crate) fn friction_couple(
+        &self,
+        circle: &FrictionCircle<T>,
+        contacts: &[ContactGeometry<T>],
+        couple: T,
+    ) -> Vec<Wrench<T>> {
+        match (&self.joints[circle.joint.index()].kind, circle.end) {
+            (JointKind::Hinge([first, second]), _) => {
+                vec![Wrench::couple(first.frame, couple), Wrench::couple(second.frame, -couple)]
+            }
+            (JointKind::Slider(slider), Some([along_n, _])) => {
+                let contact = &contacts[along_n.index()];
+                let force = contact.tangent * couple;
+                let on = |frame: Frame, force: Vector2<T>| {
+                    Wrench::force(frame, contact.point, force).in_space(contact.z, T::zero())
+                };
+                vec![on(slider.block, force), on(slider.guide, -force)]
+            }
+            (JointKind::Slider(_), None) => Vec::new(),
+        }
+    }
+}
+
+impl<T> FrictionCircle<T> {
+    /// The two reactions of whose magnitude together its friction follows: both components of the force of a hinge, or the
+    /// normal forces of a round end along n and along z.
+    pub(crate) fn reactions(&self) -> [Reaction; 2] {
+        match self.end {
+            Some(contacts) => contacts.map(Reaction::Normal),
+            None => [0, 1].map(|axis| Reaction::Hinge(self.joint, axis)),
+        }
     }
 }
 

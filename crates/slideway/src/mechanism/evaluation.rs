@@ -9,7 +9,7 @@ use crate::ids::{BodyId, ContactId, FormulaId, Frame, JointId};
 use crate::interval::Real;
 use crate::model::{
     self, Along, Effort as ModelEffort, Face, ForceFrame, Gravity, Inertia, LoadKind as ModelLoadKind, Model,
-    Moment, PreloadLine, Round, SliderKind, Stop, Touches,
+    Moment, PreloadLine, Round, RoundEnd, SliderKind, Stop, Touches,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -30,6 +30,7 @@ impl<T: Real> Evaluation<'_, T> {
             numbered.map(|(index, joint)| self.joint(JointId(index), joint, &mut contacts)).collect();
         let bodies = (0..model.bodies.len()).map(|index| self.body(BodyId(index), &joints)).collect();
         let coordinates = model.coordinates.iter().map(|coordinate| self.coordinate(coordinate)).collect();
+        let friction_circles = self.friction_circles(&joints);
         let mut loads: Vec<Load<T>> = model.loads.iter().map(|load| self.load(load)).collect();
         loads.extend(self.pads(&joints));
         let mut mechanism = Mechanism {
@@ -40,7 +41,7 @@ impl<T: Real> Evaluation<'_, T> {
             bodies,
             joints,
             contacts,
-            friction_circles: self.friction_circles(),
+            friction_circles,
             loads,
             drives: model.drives.iter().map(|drive| self.drive(drive)).collect(),
             coordinates,
@@ -208,15 +209,23 @@ impl<T: Real> Evaluation<'_, T> {
         Joint { name: joint.name.clone(), place: joint.place.clone(), carries, kind }
     }
 
-    fn friction_circles(&self) -> Vec<FrictionCircle<T>> {
-        let circle = |(index, joint): (usize, &model::Joint)| match &joint.kind {
-            model::JointKind::Hinge(hinge) => {
-                let friction = hinge.friction?;
-                Some(FrictionCircle::new(JointId(index), &friction, |id| self.value(id)))
+    fn friction_circles(&self, joints: &[Joint<T>]) -> Vec<FrictionCircle<T>> {
+        let mut circles = Vec::new();
+        for (index, (written, joint)) in self.model.joints.iter().zip(joints).enumerate() {
+            let friction = written.friction_of_blocks();
+            let circle = |friction| FrictionCircle::new(JointId(index), friction, |id| self.value(id));
+            match (&written.kind, &joint.kind) {
+                (model::JointKind::Slider(written), JointKind::Slider(slider)) => {
+                    let on = |end: &RoundEnd| end.contacts.map(|at| slider.contacts[at]);
+                    let ends = friction.iter().zip(&written.ends);
+                    circles.extend(
+                        ends.map(|(friction, end)| FrictionCircle { end: Some(on(end)), ..circle(friction) }),
+                    );
+                }
+                _ => circles.extend(friction.iter().map(circle)),
             }
-            model::JointKind::Slider(_) => None,
-        };
-        self.model.joints.iter().enumerate().filter_map(circle).collect()
+        }
+        circles
     }
 
     fn slider(&self, slider: &model::Slider, joint: JointId, contacts: &mut Vec<Contact<T>>) -> Slider<T> {
@@ -230,6 +239,8 @@ impl<T: Real> Evaluation<'_, T> {
         let first = contacts.len();
         for (index, contact) in slider.contacts.iter().enumerate() {
             let place = contact.face.filter(|face| !face.is_positive).map_or(index, |face| face.other);
+            let place =
+                slider.ends.iter().find(|end| end.contacts[1] == index).map_or(place, |end| end.contacts[0]);
             let offset = T::exactly(offsets.get(place).copied().unwrap_or(0.0)) * length;
             let mut contact = self.contact((contact, joint), first, [offset, length]);
             contact.height = contact.height.map(|height| if slider.around { -height } else { height });
@@ -304,11 +315,11 @@ impl<T: Real> Evaluation<'_, T> {
             lean: contact
                 .normal
                 .map(|normal| self.value(normal).direction())
-                .or(contact.corner.map(|_| [T::zero(), T::one()])),
+                .or((contact.corner.is_some() || contact.along_z).then(|| [T::zero(), T::one()])),
             height: contact
                 .height
                 .map(|height| self.value(height))
-                .or((contact.normal.is_some() || contact.corner.is_some()).then(T::zero)),
+                .or((contact.normal.is_some() || contact.corner.is_some() || contact.along_z).then(T::zero)),
             carried_by: contact.carried_by,
             mu: contact.mu.map(|mu| self.value(mu)),
             law: contact.mu.map(|mu| self.model.formula(mu).depends_on_speed().then_some(mu)),

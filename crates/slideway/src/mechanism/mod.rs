@@ -328,8 +328,11 @@ impl<T: Real> Contact<T> {
 /// its friction couple is `|M| = r |R|`; at rest it passes through the static circle, `|M| <= r_static |R|`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionCircle<T = f64> {
-    /// The hinge.
+    /// The hinge, or the sliding joint of a round end.
     pub joint: JointId,
+    /// The contacts of a round end along n and along z, of whose forces together the magnitude rubs along the rod: then in
+    /// place of radii there are coefficients of friction.
+    pub end: Option<[ContactId; 2]>,
     /// Radius r of the friction circle while the hinge turns (m).
     pub radius: T,
     /// Radius of the friction circle at rest (m).
@@ -382,12 +385,12 @@ impl<T: Real> FrictionCircle<T> {
     pub(crate) fn new(joint: JointId, friction: &HingeFriction, value: impl Fn(FormulaId) -> T) -> Self {
         let [kinetic, at_rest] = friction.radii(&value);
         let law = match *friction {
-            HingeFriction::Circle(_) => CircleLaw::Radius,
+            HingeFriction::Circle(_) | HingeFriction::End(_) => CircleLaw::Radius,
             HingeFriction::Pin { mu, radius, law } => {
                 CircleLaw::Pin { mu: mu.map(&value), radius: value(radius), law }
             }
         };
-        Self { joint, radius: kinetic, static_radius: at_rest, law }
+        Self { joint, end: None, radius: kinetic, static_radius: at_rest, law }
     }
 
     /// With its coefficients, or the radii that are given, multiplied by a factor.
@@ -773,7 +776,29 @@ impl Mechanism {
 }
 
 impl Mechanism {
-    /// The hinges whose kinetic friction is not zero, each with the number of its friction circle.
+    /// The friction of the round end of which a contact, counted from 0, is a part.
+    pub(crate) fn end_of(&self, contact: usize) -> Option<&FrictionCircle> {
+        let is_part =
+            |circle: &&FrictionCircle| circle.end.is_some_and(|end| end.contains(&ContactId(contact)));
+        self.friction_circles.iter().find(is_part)
+    }
+
+    /// Whether a contact, counted from 0, is a part of a round end.
+    pub(crate) fn is_part_of_end(&self, contact: usize) -> bool {
+        self.end_of(contact).is_some()
+    }
+
+    /// Whether some joint slides on a round rod.
+    pub(crate) fn has_ends(&self) -> bool {
+        self.friction_circles.iter().any(|circle| circle.end.is_some())
+    }
+
+    /// Whether a joint slides on a round rod.
+    pub(crate) fn is_on_rod(&self, slider: &Slider) -> bool {
+        slider.contacts.iter().any(|contact| self.is_part_of_end(contact.index()))
+    }
+
+    /// The hinges whose kinetic friction is not zero, and the round ends, each with the number of its friction circle.
     pub(crate) fn rough_hinges(&self) -> impl Iterator<Item = (usize, JointId)> {
         let circles = self.friction_circles.iter().enumerate();
         circles.filter(|(_, circle)| circle.radius > 0.0).map(|(index, circle)| (index, circle.joint))

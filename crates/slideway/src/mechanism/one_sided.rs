@@ -232,6 +232,9 @@ impl<T: Real> Mechanism<T> {
                 slider.contacts = slider.contacts.iter().filter_map(|contact| place(*contact)).collect();
             }
         }
+        for end in left.friction_circles.iter_mut().filter_map(|circle| circle.end.as_mut()) {
+            *end = end.map(|contact| place(contact).unwrap_or(contact));
+        }
         // Of no self-stress is a contact that may lift off a part.
         left.excess.contacts = self.excess.contacts.iter().filter_map(|contact| place(*contact)).collect();
         left.excess.open = self.excess.open.of_contacts(&kept);

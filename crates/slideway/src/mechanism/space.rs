@@ -220,6 +220,8 @@ impl Mechanism {
             let is_near = |direction: Vector2<f64>| axis.perp(&direction).abs() < ROUNDING;
             if slider.block != frame && slider.guide != frame {
                 None
+            } else if is_near(slider.tangent) && self.is_on_rod(slider) {
+                Some(format!("turning about the rod of {}", joint.name))
             } else if is_near(slider.tangent) {
                 Some(format!("rolling about the direction of {}", joint.name))
             } else if is_near(rot90(slider.tangent)) {

@@ -248,7 +248,10 @@ impl Model {
             of_kind || joint.carries.is_some()
         };
         let contact = |contact: &Contact| {
-            contact.one_sided || contact.aside != [None; 2] || contact.normal.or(contact.height).is_some()
+            contact.one_sided
+                || contact.along_z
+                || contact.aside != [None; 2]
+                || contact.normal.or(contact.height).is_some()
         };
         let load = |load: &super::Load| match &load.kind {
             LoadKind::Force { at, along_z, .. } => at.z.or(*along_z).is_some(),

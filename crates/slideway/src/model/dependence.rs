@@ -155,16 +155,12 @@ impl Places<'_> {
 
     /// Kinetic friction in hinges; static friction counts at rest alone.
     fn hinges(&mut self) -> Degree {
-        let hinges = self.model.joints.iter().filter_map(|joint| match &joint.kind {
-            JointKind::Hinge(hinge) => hinge.friction,
-            JointKind::Slider(_) => None,
-        });
         let mut greatest = Degree::Constant;
-        for friction in hinges.collect::<Vec<_>>() {
+        for friction in self.model.hinge_friction().collect::<Vec<_>>() {
             self.greatest(friction.kinetic_and_static());
             let kinetic = self.degree(friction.kinetic_and_static()[0]);
             let degree = match friction {
-                HingeFriction::Circle(_) => kinetic,
+                HingeFriction::Circle(_) | HingeFriction::End(_) => kinetic,
                 HingeFriction::Pin { radius, .. } => match (kinetic, self.degree(radius)) {
                     (one, Degree::Constant) | (Degree::Constant, one) => one,
                     _ => Degree::Other,

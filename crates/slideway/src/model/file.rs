@@ -193,6 +193,8 @@ pub(super) struct SliderTable {
     pub(super) length: Option<Quantity>,
     /// Distance of the two rubbing faces. Default: 0.
     pub(super) height: Option<Quantity>,
+    /// "round": the guide is a rod, which both ends of the block press in any direction across it. Default: flat faces.
+    pub(super) section: Option<CrossSection>,
     /// "inside": the block is inside the guide (default); "around": it surrounds the guide.
     pub(super) fit: Option<Fit>,
     /// Limits [least, greatest] of the slide displacement.
@@ -217,6 +219,15 @@ pub(super) struct SliderTable {
     /// by play, stiffness and misalignment.
     #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::schema::SupportTable>>"))]
     pub(super) supports: Option<BTreeMap<String, ContactTable>>,
+}
+
+/// The cross-section of a guide.
+#[derive(Deserialize, Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(rename_all = "snake_case")]
+pub(super) enum CrossSection {
+    /// A rod.
+    Round,
 }
 
 /// What of a joint that may lift off touches in the state to be solved.

@@ -1,6 +1,6 @@
 //! Hinges and their friction: what the radius of a friction circle follows from.
 
-use super::{Attachment, JointKind, Model, PinLaw};
+use super::{Attachment, Joint, JointKind, Model, PinLaw};
 use crate::ids::FormulaId;
 use crate::interval::Real;
 
@@ -27,6 +27,8 @@ pub enum HingeFriction {
     },
     /// The radii of the friction circle (m): kinetic and static.
     Circle([FormulaId; 2]),
+    /// The friction coefficients of a round end of a block: kinetic and static.
+    End([FormulaId; 2]),
 }
 
 impl PinLaw {
@@ -44,10 +46,10 @@ impl PinLaw {
 }
 
 impl HingeFriction {
-    /// The radii of the friction circle (m), kinetic and static.
+    /// The radii of the friction circle (m), kinetic and static; of a round end its coefficients.
     pub(crate) fn radii<T: Real>(&self, value: impl Fn(FormulaId) -> T) -> [T; 2] {
         match *self {
-            Self::Circle(radii) => radii.map(value),
+            Self::Circle(radii) | Self::End(radii) => radii.map(value),
             Self::Pin { mu, radius, law } => mu.map(|mu| law.friction_radius(value(mu), value(radius))),
         }
     }
@@ -55,34 +57,41 @@ impl HingeFriction {
     /// Its coefficients, or its radii: kinetic and static.
     pub(crate) fn kinetic_and_static(&self) -> [FormulaId; 2] {
         match *self {
-            Self::Circle(values) | Self::Pin { mu: values, .. } => values,
+            Self::Circle(values) | Self::End(values) | Self::Pin { mu: values, .. } => values,
         }
     }
 
     /// Everything that the friction circles follow from.
     pub(crate) fn formulas(self) -> impl Iterator<Item = FormulaId> {
         let pin = match self {
-            Self::Circle(_) => None,
+            Self::Circle(_) | Self::End(_) => None,
             Self::Pin { radius, .. } => Some(radius),
         };
         self.kinetic_and_static().into_iter().chain(pin)
     }
 
-    /// Its friction coefficients, kinetic and static, if it is that of a pin.
+    /// Its friction coefficients, kinetic and static, unless its radii are given.
     pub(crate) fn coefficients(&self) -> Option<[FormulaId; 2]> {
         match *self {
             Self::Circle(_) => None,
-            Self::Pin { mu, .. } => Some(mu),
+            Self::Pin { mu, .. } | Self::End(mu) => Some(mu),
         }
     }
 }
 
 impl Model {
-    /// The friction of all hinges that have it, in the order of the joints.
+    /// The friction of all hinges that have it, and of all round ends, in the order of the joints.
     pub(crate) fn hinge_friction(&self) -> impl Iterator<Item = HingeFriction> {
-        self.joints.iter().filter_map(|joint| match &joint.kind {
-            JointKind::Hinge(hinge) => hinge.friction,
-            JointKind::Slider(_) => None,
-        })
+        self.joints.iter().flat_map(Joint::friction_of_blocks)
+    }
+}
+
+impl Joint {
+    /// The friction of a hinge, or of each round end.
+    pub(crate) fn friction_of_blocks(&self) -> Vec<HingeFriction> {
+        match &self.kind {
+            JointKind::Hinge(hinge) => hinge.friction.into_iter().collect(),
+            JointKind::Slider(slider) => slider.ends.iter().map(|end| end.friction).collect(),
+        }
     }
 }

@@ -293,6 +293,18 @@ pub struct Slider {
     pub contacts: Vec<Contact>,
     /// Those that do not touch in the state to be solved.
     pub apart: Vec<Contact>,
+    /// The places at which it presses a round rod in any direction across it.
+    pub ends: Vec<RoundEnd>,
+}
+
+/// A place at which a block presses a round rod in any direction across it: two contacts without friction of their own, along n
+/// and along z, of which the magnitude of both forces together rubs.
+#[derive(Debug, Clone)]
+pub struct RoundEnd {
+    /// Its two contacts among those of the joint: along n, and along z.
+    pub contacts: [usize; 2],
+    /// Its friction.
+    pub friction: HingeFriction,
 }
 
 /// A direction in the drawing.
@@ -344,6 +356,8 @@ pub struct Contact {
     pub corner: Option<[f64; 2]>,
     /// The angle of its normal from n towards z, which is 90 degrees at a corner.
     pub normal: Option<FormulaId>,
+    /// Whether it is the part along z of a round end, which has another one along n.
+    pub along_z: bool,
     /// The distance of its faces along its normal; nothing means that of the joint, or zero where its normal leans.
     pub height: Option<FormulaId>,
     /// Part with which it travels: block or guide.

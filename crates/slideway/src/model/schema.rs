@@ -159,10 +159,10 @@ macro_rules! some_keys {
 
 some_keys!(BlockSliderTable: ContactTable, SliderTable; without ["carried_by"]; required ["along", "length"];
     "A block with a contact at each end.");
-some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", "front", "rear", "supports", "rests_on"];
+some_keys!(GuidedSliderTable: ContactTable, SliderTable; without ["carried_by", "front", "rear", "supports", "rests_on", "section"];
     required ["along", "length"]; "A slider with one normal force and a couple.");
 some_keys!(PinInSlotTable: ContactTable, SliderTable;
-    without ["carried_by", "front", "rear", "supports", "rests_on", "length", "height", "fit", "preload_line"];
+    without ["carried_by", "front", "rear", "supports", "rests_on", "section", "length", "height", "fit", "preload_line"];
     required ["along"]; "A pin in a slot.");
 some_keys!(CornerOnFaceTable: CornerTable, OnFaceTable; without ["front", "rear", "length", "centre", "radius"];
     required ["at"]; "A corner on a straight face, which it may leave.");

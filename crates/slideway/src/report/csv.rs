@@ -74,6 +74,11 @@ impl Rows {
                 row("hinge", &hinge.name, "friction_couple", friction.couple, "N m");
             }
         }
+        for end in &solution.round_ends {
+            row("round_end", &end.name, "normal_force", end.normal_force, "N");
+            row("round_end", &end.name, "direction", end.direction, "rad");
+            row("round_end", &end.name, "friction_force", end.friction_force, "N");
+        }
         for carried in &solution.carried {
             row("joint", &carried.name, carried.quantity.key(), carried.value, carried.unit);
         }

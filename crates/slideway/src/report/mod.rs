@@ -341,6 +341,9 @@ pub struct Solution {
     pub joints: Vec<JointMode>,
     /// The hinge forces.
     pub hinges: Vec<Hinge>,
+    /// The ends of blocks on round rods; absent without.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub round_ends: Vec<RoundEnd>,
     /// What joints carry out of the drawing without friction; absent of a planar model.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub carried: Vec<Carried>,
@@ -366,9 +369,11 @@ impl Solution {
             forces.into_iter().chain(couple).chain(contact.pressure.map(|pressure| ("Pa", pressure)))
         });
         let hinges = self.hinges.iter().flat_map(|hinge| hinge.force.map(|force| ("N", force)));
+        let ends = self.round_ends.iter().map(|end| ("N", end.normal_force));
         let carried = self.carried.iter().map(|carried| (carried.unit, carried.value));
         contacts
             .chain(hinges)
+            .chain(ends)
             .chain(carried)
             .chain(self.drives.iter().map(|drive| (drive.unit, drive.effort)))
     }
@@ -447,6 +452,8 @@ pub enum MarginsMissing {
     Undetermined,
     /// Solutions with friction in hinges are not followed all together.
     FrictionInHinges,
+    /// Nor are those with friction on round rods.
+    FrictionOnRods,
 }
 
 impl MarginsMissing {
@@ -460,6 +467,9 @@ impl MarginsMissing {
             Self::NothingPresses => "nothing presses a contact whose preload differs by side",
             Self::FrictionInHinges => {
                 "hinges have friction (`slideway limits` with `--vary friction=1..10` tells when the number of solutions changes)"
+            }
+            Self::FrictionOnRods => {
+                "round rods have friction (`slideway limits` with `--vary friction=1..10` tells when the number of solutions changes)"
             }
         }
     }
@@ -761,6 +771,20 @@ impl JointMode {
             (place, start) => format!("{place}, {start}"),
         }
     }
+}
+
+/// An end of a block on a round rod. Among the contacts it has two parts, along n and along z.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct RoundEnd {
+    /// "joint.front" or "joint.rear", or with the name of a support.
+    pub name: String,
+    /// The force of the rod on the block across it (N).
+    pub normal_force: f64,
+    /// Where that pushes the block: an angle from n towards z (rad).
+    pub direction: f64,
+    /// Friction force, positive against positive sliding (N).
+    pub friction_force: f64,
 }
 
 /// A hinge force.

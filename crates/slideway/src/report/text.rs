@@ -596,6 +596,13 @@ fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<
             row(&hinge.name, "radius of its friction circle", length.number(friction.radius), &length);
         }
     }
+    for end in &solution.round_ends {
+        let (force, angle) = (units.of("N"), units.of("rad"));
+        row(&end.name, "force of the rod", force.against(end.normal_force, force_scale), &force);
+        if end.normal_force > 1e-13 * force_scale {
+            row(&end.name, "pushes, from n towards z", angle.number(end.direction), &angle);
+        }
+    }
     let moments = solution.carried.iter().filter(|carried| carried.unit == "N m");
     let moment_scale =
         moments.map(|carried| carried.value.abs()).fold(force_scale * report.model.size, f64::max);

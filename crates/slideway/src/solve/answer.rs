@@ -19,7 +19,7 @@ use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Opening, Reaction, gap_acceleration};
 use crate::law::tips;
-use crate::mechanism::{JointKind, Mechanism, Slider};
+use crate::mechanism::{FrictionCircle, JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
 use crate::modes::{
     Certificate, ClosestMode, ContactState, GroupReport, PatternOutcomes, SharedLoad, SingularMode,
@@ -406,6 +406,7 @@ impl<'a> Answer<'a> {
             contacts: self.contacts(state, unknowns, &friction),
             joints: self.joint_modes(&state.signs),
             hinges: self.hinges(state, unknowns),
+            round_ends: self.round_ends(state),
             carried: self.carried(unknowns),
             bodies: self.bodies(unknowns, &residuals),
             coordinates: self.coordinates(state, unknowns),
@@ -462,7 +463,10 @@ impl<'a> Answer<'a> {
     ) -> Vec<report::Contact> {
         let at_faces = |forces: Vec<f64>| self.mechanism.forces_at_faces(state.pattern, forces);
         let normal_forces = at_faces(state.normal_force.iter().copied().collect());
-        let friction = at_faces(friction.iter().map(|friction| friction.total()).collect());
+        let mut friction = at_faces(friction.iter().map(|friction| friction.total()).collect());
+        for (contact, force) in self.mechanism.friction_of_ends(state.hinges) {
+            friction[contact] += force;
+        }
         let bounds = self.bounds(state);
         let acceleration = |k: usize| {
             let state = (ContactId(k), unknowns);
@@ -531,6 +535,22 @@ impl<'a> Answer<'a> {
             })
         };
         joints.filter_map(one).collect()
+    }
+
+    fn round_ends(&self, state: &State<'_>) -> Vec<report::RoundEnd> {
+        let one = |(index, circle): (usize, &FrictionCircle)| {
+            let end = circle.end?;
+            let [along_n, along_z] = end.map(|contact| state.normal_force[contact.index()]);
+            let rubs = state.hinges.iter().find(|hinge| hinge.circle == index);
+            Some(report::RoundEnd {
+                name: self.mechanism.contacts[end[0].index()].name.to_string(),
+                normal_force: along_n.hypot(along_z),
+                direction: along_z.atan2(along_n),
+                // What is counted of a friction circle acts on the block along u. Adding zero turns -0 into 0.
+                friction_force: rubs.map_or(0.0, |hinge| -hinge.couple) + 0.0,
+            })
+        };
+        self.mechanism.friction_circles.iter().enumerate().filter_map(one).collect()
     }
 
     /// The accelerations out of the plane of a body that leaves it.

@@ -16,9 +16,10 @@ use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem};
 use crate::problem::TurningHinge;
 use crate::report::{Attainability, Fate, Solution, Verdict};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::ops::AddAssign;
 
 /// Of a state that is yet to be examined, or never is.
 pub(super) fn not_computed(reason: &str) -> Attainability {
@@ -84,13 +85,37 @@ pub(crate) fn attainability_with_hinges(
     (states, reactions): (&[ContactState], &[[f64; 2]]),
 ) -> Attainability {
     let open: Vec<usize> = data.mechanism.opening(states).collect();
-    let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
     let of_left = |left: Left<'_>| {
         let states = left.states(states);
         let slopes = left.data().block_problem(hinges)?.slopes(&states, reactions);
+        let (slopes, joints) = with_ends_once(&left.mechanism, slopes, hinges);
         Ok::<_, Faults>(ElasticJoints::new(&left.mechanism, &left.equations, &joints).of(slopes, &states))
     };
     Left::new(data, state, &open).and_then(of_left).unwrap_or_else(|_| not_computed(NOT_DRIVEN))
+}
+
+/// The slopes in which the components of round ends, which are contacts, too, stand once, as those; and the hinges.
+fn with_ends_once(
+    mechanism: &Mechanism,
+    mut slopes: DMatrix<f64>,
+    hinges: &[TurningHinge],
+) -> (DMatrix<f64>, Vec<JointId>) {
+    let contacts = mechanism.contacts.len();
+    let mut kept: Vec<usize> = (0..contacts).collect();
+    let mut joints = Vec::new();
+    for (index, hinge) in hinges.iter().enumerate() {
+        let own = [0, 1].map(|component| contacts + 2 * index + component);
+        if let Some(end) = mechanism.friction_circles[hinge.circle].end {
+            for (contact, column) in end.into_iter().zip(own) {
+                let more = slopes.column(column).into_owned();
+                slopes.column_mut(contact.index()).add_assign(&more);
+            }
+        } else {
+            kept.extend(own);
+            joints.push(hinge.joint);
+        }
+    }
+    (slopes.select_rows(&kept).select_columns(&kept), joints)
 }
 
 /// Why nothing is said of what is left when contacts have lifted off.

@@ -58,7 +58,8 @@ impl Balance<'_> {
             forces.extend(self.reaction(*reaction, value));
         }
         for hinge in self.hinges {
-            forces.extend(self.mechanism.friction_couple(hinge.joint, hinge.couple));
+            let circle = &self.mechanism.friction_circles[hinge.circle];
+            forces.extend(self.mechanism.friction_couple(circle, self.contacts, hinge.couple));
         }
         for (index, friction) in self.friction.iter().enumerate() {
             let (id, contact) = (ContactId(index), &self.contacts[index]);

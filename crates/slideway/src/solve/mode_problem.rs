@@ -9,7 +9,7 @@ use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{ContactId, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::kinetics::ConstraintRow;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::modes::blocks::BlockProblem;
 use crate::modes::existence::ModeProblemLine;
 use crate::modes::{BySide, InfluenceCoefficients, ModeProblem};
@@ -156,8 +156,9 @@ impl ProblemData<'_> {
         outputs: &[ConstraintRow],
     ) -> Result<InfluenceCoefficients, Faults> {
         let Self { mechanism, influence, velocity_signs } = self;
-        let joints: Vec<JointId> = hinges.iter().map(|hinge| hinge.joint).collect();
-        let own = influence.block_rows(&joints);
+        let circles: Vec<&FrictionCircle> =
+            hinges.iter().map(|hinge| &mechanism.friction_circles[hinge.circle]).collect();
+        let own = influence.block_rows(&circles);
         let rows = own.len() + outputs.len();
         let entry = |row: usize, unknowns: &DVector<f64>| match row.checked_sub(own.len()) {
             None => unknowns[own[row]],

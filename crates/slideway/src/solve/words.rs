@@ -62,11 +62,13 @@ fn in_cross_section(
     signs: &[i8],
 ) -> ModeInWords {
     let guide = GuideInWords { tangent, around: slider.around };
-    let contacts = slider.contacts.iter().map(|contact| &mechanism.contacts[contact.index()]);
-    let all: Vec<Pressed<'_>> = contacts.zip(signs.iter().copied()).collect();
-    let (leaning, upright): (Vec<Pressed<'_>>, Vec<Pressed<'_>>) =
-        all.into_iter().partition(|(contact, _)| contact.lean.is_some());
-    let mut words: Vec<String> = match upright.as_slice() {
+    let all = slider.contacts.iter().zip(signs.iter().copied());
+    let flat = all.filter(|(contact, _)| !mechanism.is_part_of_end(contact.index()));
+    let (leaning, upright): (Vec<Pressed<'_>>, Vec<Pressed<'_>>) = flat
+        .map(|(contact, sign)| (&mechanism.contacts[contact.index()], sign))
+        .partition(|(contact, _)| contact.lean.is_some());
+    let mut words: Vec<String> = on_rod(mechanism, slider, &guide, signs).into_iter().collect();
+    words.extend(match upright.as_slice() {
         [] => Vec::new(),
         [(_, 0), (_, 0)] if leaning.iter().any(|(_, sign)| *sign != 0) => Vec::new(),
         [(first, front), (second, rear)] if !first.opens && !second.opens => {
@@ -80,7 +82,7 @@ fn in_cross_section(
             };
             more.iter().map(|pressed| format!("{} {}", pressed.0.place_in_joint(), place(pressed))).collect()
         }
-    };
+    });
     let [rests, hangs, lifts] = [(1, false), (-1, false), (-1, true)].map(|(side, opens)| {
         let does = |(contact, sign): &&Pressed<'_>| *sign == side && (side == 1 || contact.opens == opens);
         leaning.iter().filter(does).map(|(contact, _)| *contact).collect::<Vec<_>>()
@@ -107,6 +109,28 @@ fn in_cross_section(
     let face = opens.then_some(if holds { OnFace::Tips } else { OnFace::Opens });
     let line = (rests.len() == 2 && hangs.is_empty()).then(|| named(&rests, " - "));
     ModeInWords { face, place: words.join(", "), line }
+}
+
+/// Where the ends of a block are pushed by a round rod, if it is on one.
+fn on_rod(mechanism: &Mechanism, slider: &Slider, guide: &GuideInWords, signs: &[i8]) -> Option<String> {
+    let sign = |contact: ContactId| {
+        let place = slider.contacts.iter().position(|other| *other == contact)?;
+        signs.get(place).copied()
+    };
+    let pushed = |end: [ContactId; 2]| {
+        let [along_n, along_z] = end.map(sign);
+        let name = mechanism.contacts[end[0].index()].place_in_joint();
+        Some((name, guide.pushed(along_n?, along_z?)))
+    };
+    let is_of_slider = |end: &[ContactId; 2]| slider.contacts.contains(&end[0]);
+    let ends = mechanism.friction_circles.iter().filter_map(|circle| circle.end).filter(is_of_slider);
+    let ends: Vec<(&str, String)> = ends.filter_map(pushed).collect();
+    let [(_, first), others @ ..] = ends.as_slice() else { return None };
+    if others.iter().all(|(_, towards)| towards == first) {
+        return Some(format!("the rod pushes it {first}"));
+    }
+    let each: Vec<String> = ends.iter().map(|(name, towards)| format!("{name} {towards}")).collect();
+    Some(format!("the rod pushes {}", each.join(", ")))
 }
 
 fn on_guide(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {
@@ -186,6 +210,25 @@ impl GuideInWords {
             [-1, _] => (OnFace::Tips, format!("on its {} corner", self.end(-1.0))),
             [_, -1] => (OnFace::Tips, format!("on its {} corner", self.end(1.0))),
             _ => (OnFace::Closed, String::new()),
+        }
+    }
+
+    /// Where a rod pushes the block: "up and out of the drawing".
+    fn pushed(&self, along_n: i8, along_z: i8) -> String {
+        // n = rot90(u) = (-u_y, u_x)
+        let n = f64::from(along_n) * if self.is_vertical() { -self.tangent.y } else { self.tangent.x };
+        let in_drawing = match (self.is_vertical(), n) {
+            (_, 0.0) => None,
+            (true, n) => Some(if n > 0.0 { "right" } else { "left" }),
+            (false, n) => Some(if n > 0.0 { "up" } else { "down" }),
+        };
+        let across = match along_z {
+            0 => None,
+            sign => Some(if sign > 0 { "out of the drawing" } else { "into the drawing" }),
+        };
+        match (in_drawing, across) {
+            (Some(one), Some(other)) => format!("{one} and {other}"),
+            (one, other) => one.or(other).unwrap_or("nowhere").to_owned(),
         }
     }
 

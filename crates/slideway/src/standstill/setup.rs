@@ -93,6 +93,9 @@ impl Setup {
             // What tips out of the drawing slides otherwise at each of its contacts.
             original.check_planar("rest on contacts that may lift off")?;
         }
+        if original.has_ends() {
+            original.check_planar("rest on a round rod")?;
+        }
         original.check_size()?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();

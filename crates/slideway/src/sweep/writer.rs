@@ -109,6 +109,9 @@ impl Writer<'_> {
                 }
             }
         }
+        for (contact, force) in self.mechanism.friction_of_ends(hinges) {
+            forces[contacts + contact] += force;
+        }
         for (contact, per_force) in self.mechanism.excess.contacts.iter().zip(&self.stages.self_stresses) {
             add_multiple(outputs, forces[contact.index()], per_force);
         }

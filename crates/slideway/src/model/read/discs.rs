@@ -44,6 +44,7 @@ impl Reader<'_> {
             stops: [None; 2],
             contacts,
             apart,
+            ends: Vec::new(),
         }
     }
 }

@@ -6,7 +6,9 @@ use super::super::file::{
 };
 use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
-use super::super::{Along, Contact, Joint, JointKind, Pad, Slider, SliderKind, Stop, Touches};
+use super::super::{
+    Along, Contact, HingeFriction, Joint, JointKind, Pad, RoundEnd, Slider, SliderKind, Stop, Touches,
+};
 use super::{Reader, Varies, Wanted};
 use crate::expression::Dimension;
 use crate::fault::{FaultKind, Place as FaultPlace};
@@ -103,6 +105,11 @@ impl Reader<'_> {
             SliderKind::Block => self.contacts_of_block(joint, all, name, span),
             SliderKind::Guided | SliderKind::Pin => vec![self.contact(all, name.to_owned(), name, span)],
         };
+        let ends = if joint.section.is_some() {
+            self.round_ends(joint, &mut contacts, name, span)
+        } else {
+            Vec::new()
+        };
         self.check_loose(joint, &contacts, (*opens, name, span));
         let touches = touches(joint);
         let apart = if *opens { self.open(&mut contacts, touches) } else { Vec::new() };
@@ -128,6 +135,7 @@ impl Reader<'_> {
             stops: self.stops(joint, name, span),
             contacts,
             apart,
+            ends,
         }
     }
 
@@ -269,6 +277,50 @@ impl Reader<'_> {
             }
             let aside = [Some(width), z];
             contacts.push(Contact { offset: length, aside, corner: Some(corner), ..rest });
+        }
+    }
+
+    /// Makes round ends of the contacts whose normal is not given; each gets another one along z, behind all of them.
+    fn round_ends(
+        &mut self,
+        joint: &SliderTable,
+        contacts: &mut Vec<Contact>,
+        name: &str,
+        span: &Span,
+    ) -> Vec<RoundEnd> {
+        let refused = [("height", joint.height.is_some()), ("loose", joint.loose == Some(true))];
+        self.refuse_on_rod(name, &refused, span);
+        let mut ends = Vec::new();
+        for at in 0..contacts.len() {
+            let contact = contacts[at].clone();
+            if contact.normal.is_some() || contact.corner.is_some() {
+                continue;
+            }
+            let needs_face = [
+                ("height", contact.height.is_some()),
+                ("one_sided", contact.one_sided),
+                ("play", contact.play.is_some()),
+                ("preload", contact.preload != [None; 2]),
+                ("misalignment", contact.misalignment.is_some()),
+                ("pad", contact.pad.is_some()),
+                ("mu = { plus, minus }", contact.mu[0] != contact.mu[1]),
+            ];
+            self.refuse_on_rod(&contact.name, &needs_face, span);
+            let [mu, mu_static] = [contact.mu[0], contact.mu_static[0]];
+            self.formulas[mu.index()].varies = Varies::Never;
+            let friction = HingeFriction::End([mu, mu_static]);
+            ends.push(RoundEnd { contacts: [at, contacts.len()], friction });
+            (contacts[at].mu, contacts[at].mu_static) = ([self.zero; 2], [self.zero; 2]);
+            let name = Arc::from(format!("{}.z", contact.name));
+            contacts.push(Contact { name, along_z: true, ..contacts[at].clone() });
+        }
+        ends
+    }
+
+    fn refuse_on_rod(&mut self, owner: &str, keys: &[(&'static str, bool)], span: &Span) {
+        for (second, _) in keys.iter().filter(|(_, given)| *given) {
+            let kind = FaultKind::Both { owner: owner.to_owned(), first: "section = \"round\"", second };
+            self.fault(kind, span);
         }
     }
 
@@ -478,6 +530,7 @@ impl Reader<'_> {
             offset: None,
             aside: [None; 2],
             corner: None,
+            along_z: false,
             normal: None,
             height: None,
             stiffness: friction.stiffness,

@@ -23,14 +23,13 @@ pub(crate) fn turning_hinges(stages: &Stages, circles: &[usize]) -> Result<Vec<T
     let Stages { mechanism, configuration, influence, .. } = stages;
     let mut faults = Faults::default();
     let mut turning = Vec::new();
-    let joints = circles.iter().map(|&circle| mechanism.friction_circles[circle].joint).collect();
-    for (&circle, (joint, sense)) in circles.iter().zip(senses((mechanism, configuration), influence, joints))
-    {
-        let is_smooth = mechanism.friction_circles[circle].radius == 0.0;
+    for (&circle, sense) in circles.iter().zip(senses((mechanism, configuration), influence, circles)) {
+        let FrictionCircle { joint, radius, .. } = mechanism.friction_circles[circle];
+        let is_smooth = radius == 0.0;
         match sense {
             Ok(sense) => turning.push(TurningHinge { circle, joint, sense }),
             Err(_) if is_smooth => turning.push(TurningHinge { circle, joint, sense: 1.0 }),
-            Err(why) => faults.push(does_not_turn(mechanism, joint, why)),
+            Err(why) => faults.push(does_not_turn(mechanism, circle, why)),
         }
     }
     faults.or(turning)

@@ -7,6 +7,7 @@ use super::margins::Growth;
 use super::states::hinge_states;
 use crate::enclosure::NotEnclosed;
 use crate::interval::{Interval, Real};
+use crate::mechanism::Mechanism;
 use crate::modes::blocks::{BlockProblem, BlockResult, BlockSolution, OpenRegion, UniqueForEveryLoad};
 use crate::modes::{Certificate, ContactState};
 use crate::problem::TurningHinge;
@@ -23,7 +24,7 @@ pub(super) struct BlocksFound<'f> {
 }
 
 impl BlocksFound<'_> {
-    fn strategy(&self) -> String {
+    fn strategy(&self, mechanism: &Mechanism) -> String {
         let why = match self.result.unique_for_every_load {
             Some(UniqueForEveryLoad::BlockNorms) => "; a bound on norms proves one solution for every load",
             Some(UniqueForEveryLoad::ScaledNorm) => {
@@ -31,7 +32,8 @@ impl BlocksFound<'_> {
             }
             None => "",
         };
-        format!("the directions of the forces at hinges with friction were divided into sectors{why}")
+        let place = if mechanism.has_ends() { "on round rods and at hinges" } else { "at hinges" };
+        format!("the directions of the forces {place} with friction were divided into sectors{why}")
     }
 
     /// What keeps the list of solutions from being proven complete.
@@ -72,6 +74,9 @@ impl BlockAnswer<'_> {
         let mut tipping = Tipped::default();
         let (mut solutions, mut gaps) = (Vec::new(), Vec::new());
         for solution in found.result.solutions.iter().take(found.most) {
+            // Both signs of a part of a round end are one: it has no friction of its own.
+            let is_whole = |contact: &&usize| !self.answer.mechanism.is_part_of_end(**contact);
+            let on_boundary: Vec<usize> = solution.on_boundary.iter().filter(is_whole).copied().collect();
             let slopes = self.problem.slopes(&solution.states, &solution.reactions);
             let oriented = self.oriented(&slopes, solution);
             let signs: Vec<i8> = (0..solution.states.len())
@@ -85,9 +90,9 @@ impl BlockAnswer<'_> {
                 normal_force: &DVector::from_column_slice(&solution.forces),
                 shares,
                 signs,
-                on_boundary: !solution.on_boundary.is_empty(),
+                on_boundary: !on_boundary.is_empty(),
                 determinant: oriented * solution.states.iter().map(|state| state.sign()).product::<f64>(),
-                certificate: &certificate(solution),
+                certificate: &certificate(solution, &on_boundary),
                 hinges: &hinge_states(self.answer.mechanism, self.hinges, &solution.reactions),
                 held: &[],
             };
@@ -100,7 +105,7 @@ impl BlockAnswer<'_> {
             if self.frictionless.is_some() {
                 kept.oriented_determinant = oriented;
             }
-            kept.attainability = if solution.on_boundary.is_empty() && solution.unloaded.is_empty() {
+            kept.attainability = if on_boundary.is_empty() && solution.unloaded.is_empty() {
                 let state = (self.answer.configuration, self.answer.equations);
                 let forces = (solution.states.as_slice(), solution.reactions.as_slice());
                 attainability_with_hinges(self.answer.data(), state, self.hinges, forces)
@@ -119,7 +124,7 @@ impl BlockAnswer<'_> {
             partial: found.result.stopped.is_some(),
             count: (solutions.len() + left_out).to_string(),
             gap_state_count: gaps.len().to_string(),
-            strategy: found.strategy(),
+            strategy: found.strategy(self.answer.mechanism),
             nodes: found.result.nodes,
             solutions,
             preload_gap_states: gaps,
@@ -137,7 +142,7 @@ impl BlockAnswer<'_> {
 }
 
 /// Proven bounds of `|N_k|`, or of the shares of contacts in their gaps, then of `|R_j|`.
-fn certificate(solution: &BlockSolution) -> Certificate {
+fn certificate(solution: &BlockSolution, on_boundary: &[usize]) -> Certificate {
     let bounds = solution.states.iter().zip(&solution.enclosure);
     let unknowns = bounds.map(|(state, bounds)| match state {
         ContactState::Gap => *bounds,
@@ -145,9 +150,9 @@ fn certificate(solution: &BlockSolution) -> Certificate {
     });
     let (forces, _) = solution.enclosure[solution.states.len()..].as_chunks();
     let unknowns: Vec<Interval> = unknowns.chain(forces.iter().map(|[x, y]| x.hypot(*y))).collect();
-    if solution.on_boundary.is_empty() {
+    if on_boundary.is_empty() {
         Certificate::Proven { unknowns }
     } else {
-        Certificate::Boundary { unknowns, zero: solution.on_boundary.clone(), full_share: Vec::new() }
+        Certificate::Boundary { unknowns, zero: on_boundary.to_vec(), full_share: Vec::new() }
     }
 }

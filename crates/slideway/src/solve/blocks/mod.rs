@@ -79,7 +79,11 @@ pub(super) fn solve(
     let mut report = report?;
     sharing::add(&mut report, stages, false)?;
     Ok(SolveReport {
-        margins_missing: options.margins.then_some(MarginsMissing::FrictionInHinges),
+        margins_missing: options.margins.then_some(if mechanism.has_ends() {
+            MarginsMissing::FrictionOnRods
+        } else {
+            MarginsMissing::FrictionInHinges
+        }),
         uncertainty: answer.uncertainty(model, ranges, options, progress),
         ..report
     })

@@ -6,7 +6,7 @@ use crate::configuration::{Configuration, NO_ACCELERATION, Velocity, free_motion
 use crate::fault::{Fault, FaultKind, Faults, NoSliding};
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::Influence;
-use crate::mechanism::{Joint, JointKind, Mechanism};
+use crate::mechanism::{FrictionCircle, Joint, JointKind, Mechanism};
 use crate::problem::TurningHinge;
 use nalgebra::{DVector, Vector2};
 
@@ -33,14 +33,16 @@ pub(super) fn spins(
 ) -> Result<Spins, Faults> {
     let mut faults = Faults::default();
     let mut spins = Spins { turning: Vec::new(), standing: Vec::new() };
-    let (circles, joints): (Vec<usize>, Vec<JointId>) = mechanism.rough_hinges().unzip();
-    for (circle, (joint, sense)) in
-        circles.into_iter().zip(senses((mechanism, configuration), influence, joints))
-    {
+    let circles: Vec<usize> = mechanism.rough_hinges().map(|(circle, _)| circle).collect();
+    let all = senses((mechanism, configuration), influence, &circles);
+    for (circle, sense) in circles.into_iter().zip(all) {
+        let FrictionCircle { joint, end, .. } = mechanism.friction_circles[circle];
         match sense {
             Ok(sense) => spins.turning.push(TurningHinge { circle, joint, sense }),
-            Err(NoSliding::Never) => spins.standing.push(TurningHinge { circle, joint, sense: 0.0 }),
-            Err(why) => faults.push(does_not_turn(mechanism, joint, why)),
+            Err(NoSliding::Never) if end.is_none() => {
+                spins.standing.push(TurningHinge { circle, joint, sense: 0.0 });
+            }
+            Err(why) => faults.push(does_not_turn(mechanism, circle, why)),
         }
     }
     faults.or(spins)
@@ -52,7 +54,7 @@ pub(super) fn spins(
 /// A fault for each of them.
 pub(super) fn never_turn(mechanism: &Mechanism, standing: &[TurningHinge]) -> Result<(), Faults> {
     let mut faults = Faults::default();
-    faults.extend(standing.iter().map(|hinge| does_not_turn(mechanism, hinge.joint, NoSliding::Never)));
+    faults.extend(standing.iter().map(|hinge| does_not_turn(mechanism, hinge.circle, NoSliding::Never)));
     faults.or(())
 }
 
@@ -70,44 +72,50 @@ pub(crate) fn never_turning(mechanism: &Mechanism, configuration: &Configuration
         Configuration { velocities, ..configuration.clone() }
     });
     let moving: Vec<Configuration> = moving.collect();
-    let turns = |joint: JointId| moving.iter().any(|state| turning(mechanism, state)(joint) != 0.0);
-    let joints = mechanism.friction_circles.iter().map(|circle| circle.joint);
-    let still: Vec<JointId> = joints.filter(|joint| !turns(*joint)).collect();
+    let turns = |circle: usize| moving.iter().any(|state| turning(mechanism, state)(circle) != 0.0);
+    let still: Vec<usize> = (0..mechanism.friction_circles.len()).filter(|circle| !turns(*circle)).collect();
     let somehow = Configuration { rates: vec![1.0; configuration.rates.len()], ..configuration.clone() };
     let why = why_still(mechanism, &somehow, &still);
     let never = still.iter().zip(why).filter(|(_, why)| why.reason == NoSliding::Never);
     let mut faults = Faults::default();
-    never.for_each(|(&joint, why)| faults.push(does_not_turn(mechanism, joint, why.reason)));
+    never.for_each(|(&circle, why)| faults.push(does_not_turn(mechanism, circle, why.reason)));
     faults.or(())
 }
 
-pub(super) fn does_not_turn(mechanism: &Mechanism, joint: JointId, why: NoSliding) -> Fault {
+/// The fault of a hinge with friction that does not turn, or of a round end that does not slide.
+pub(super) fn does_not_turn(mechanism: &Mechanism, circle: usize, why: NoSliding) -> Fault {
+    let FrictionCircle { joint, end, .. } = mechanism.friction_circles[circle];
     let Joint { name, place, .. } = &mechanism.joints[joint.index()];
+    if let Some([along_n, _]) = end {
+        let contacts = vec![mechanism.contacts[along_n.index()].name.to_string()];
+        return Fault::new(FaultKind::ZeroSlidingVelocity { contacts, why }, place.clone());
+    }
     Fault::new(FaultKind::HingeDoesNotTurn { hinge: name.to_string(), why }, place.clone())
 }
 
-/// The sense in which each of these hinges turns, or why it does not.
+/// The sense in which each of these hinges turns, or why it does not; of round ends, in which the block slides.
 pub(super) fn senses(
     (mechanism, configuration): (&Mechanism, &Configuration),
     influence: &Influence,
-    joints: Vec<JointId>,
-) -> Vec<(JointId, Result<f64, NoSliding>)> {
-    let now: Vec<f64> = joints.iter().copied().map(turning(mechanism, configuration)).collect();
-    let still: Vec<JointId> =
-        joints.iter().zip(&now).filter(|(_, now)| **now == 0.0).map(|(joint, _)| *joint).collect();
+    circles: &[usize],
+) -> Vec<Result<f64, NoSliding>> {
+    let now: Vec<f64> = circles.iter().copied().map(turning(mechanism, configuration)).collect();
+    let still: Vec<usize> =
+        circles.iter().zip(&now).filter(|(_, now)| **now == 0.0).map(|(circle, _)| *circle).collect();
     let mut reasons = why_still(mechanism, configuration, &still).into_iter();
-    let sense = |(joint, now): (JointId, f64)| {
+    let sense = |(circle, now): (&usize, f64)| {
+        let joint = mechanism.friction_circles[*circle].joint;
         let begins = |Why { reason, moves_with }: Why| match reason {
             NoSliding::Here if moves_with.is_empty() => begins(mechanism, influence, joint).ok_or(reason),
             reason => Err(reason),
         };
-        (joint, if now == 0.0 { reasons.next().map_or(Ok(now), begins) } else { Ok(now) })
+        if now == 0.0 { reasons.next().map_or(Ok(now), begins) } else { Ok(now) }
     };
-    joints.into_iter().zip(now).map(sense).collect()
+    circles.iter().zip(now).map(sense).collect()
 }
 
 /// Why each of these hinges does not turn.
-fn why_still(mechanism: &Mechanism, configuration: &Configuration, still: &[JointId]) -> Vec<Why> {
+fn why_still(mechanism: &Mechanism, configuration: &Configuration, still: &[usize]) -> Vec<Why> {
     let turn = |state: &Configuration| {
         still.iter().copied().map(turning(mechanism, state)).map(|sense| sense != 0.0).collect()
     };
@@ -131,13 +139,17 @@ fn begins(mechanism: &Mechanism, influence: &Influence, joint: JointId) -> Optio
     turns(&influence.frictionless).filter(|_| !depends)
 }
 
-/// Says of hinges in which sense each turns: 1, -1, or 0 where it does not within rounding.
-fn turning(mechanism: &Mechanism, configuration: &Configuration) -> impl Fn(JointId) -> f64 {
+/// Says of friction circles in which sense each hinge turns, or the block of a round end slides: 1, -1, or 0 where it does not
+/// within rounding.
+fn turning(mechanism: &Mechanism, configuration: &Configuration) -> impl Fn(usize) -> f64 {
     let speeds =
         configuration.velocities.iter().map(|v| v.angular.abs().max(v.linear.norm() / mechanism.size));
     let greatest = speeds.fold(0.0, f64::max);
-    move |joint| {
-        let spin = configuration.spin(mechanism, joint);
-        if spin.abs() <= AT_REST * greatest { 0.0 } else { spin.signum() }
+    move |circle| {
+        let circle = &mechanism.friction_circles[circle];
+        let least =
+            if circle.end.is_some() { AT_REST * greatest * mechanism.size } else { AT_REST * greatest };
+        let speed = configuration.rubbing(mechanism, circle);
+        if speed.abs() <= least { 0.0 } else { speed.signum() }
     }
 }

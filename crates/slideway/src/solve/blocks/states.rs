@@ -85,7 +85,8 @@ impl Telling<'_> {
         let reactions: Vec<[f64; 2]> = reactions.as_chunks().0.to_vec();
         let state = |k: usize| {
             let certain = forces[k].abs() > errors[k] + self.doubt(k, forces, &reactions);
-            certain.then_some(if forces[k] > 0.0 { ContactState::Positive } else { ContactState::Negative })
+            let is_known = certain || self.mechanism.is_part_of_end(k);
+            is_known.then_some(if forces[k] < 0.0 { ContactState::Negative } else { ContactState::Positive })
         };
         let pattern: Vec<ContactState> = (0..contacts).map(state).collect::<Option<_>>()?;
         Some(self.state(pattern, forces, &reactions, false))
@@ -93,10 +94,12 @@ impl Telling<'_> {
 
     /// One of the solutions that a search has found; none if something about it is in doubt.
     fn one_of_several(&self, solution: &BlockSolution) -> Option<BlockState> {
-        let certain =
-            solution.gaps.is_empty() && solution.on_boundary.is_empty() && solution.unloaded.is_empty();
-        let large =
-            |k: usize| solution.forces[k].abs() > self.doubt(k, &solution.forces, &solution.reactions);
+        let is_part = |k: usize| self.mechanism.is_part_of_end(k);
+        let is_inside = solution.on_boundary.iter().all(|&k| is_part(k));
+        let certain = solution.gaps.is_empty() && is_inside && solution.unloaded.is_empty();
+        let large = |k: usize| {
+            is_part(k) || solution.forces[k].abs() > self.doubt(k, &solution.forces, &solution.reactions)
+        };
         let is_negative = match solution.orientation? {
             Sign::Positive => false,
             Sign::Negative => true,

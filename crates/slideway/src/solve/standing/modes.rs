@@ -48,12 +48,13 @@ impl<'a> Modes<'a> {
             .iter()
             .filter_map(|free| if let Free::Hinge(hinge) = free { Some(*hinge) } else { None })
             .collect();
-        let joints: Vec<_> = hinges.iter().map(|hinge| hinge.joint).collect();
+        let circles: Vec<_> =
+            hinges.iter().map(|hinge| &stages.mechanism.friction_circles[hinge.circle]).collect();
         let (bounds, below): (Vec<OutputBound>, Vec<usize>) =
             couples(&stages.mechanism, &stages.influence).into_iter().unzip();
         let outputs: Vec<ConstraintRow> = below.iter().copied().map(ConstraintRow::unknown).collect();
         let numbers = stages.data().coefficients(&hinges, &outputs)?.numbers();
-        let mut places = stages.influence.block_rows(&joints);
+        let mut places = stages.influence.block_rows(&circles);
         places.extend(below);
         let is_finite = numbers.are_finite();
         is_finite.then_some(Self { stages, free, numbers, places, bounds }).ok_or_else(overflow)
