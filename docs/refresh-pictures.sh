@@ -24,6 +24,8 @@ draw klepp-2002.svg models/klepp-2002.toml
 draw klepp-2002-dark.svg models/klepp-2002.toml --theme dark
 draw painleve-klein-two.svg models/painleve-klein.toml --set mu=4 --set direction=-1
 draw slider-crank-tipped.svg models/slider-crank.toml --set mu=0.8 --at "phi=150 deg"
+draw cam-follower.svg models/cam-follower.toml
+draw wedge.svg models/wedge.toml
 draw scotch-yoke.svg models/scotch-yoke.toml
 draw sleeve-on-arm.svg models/sleeve-on-arm.toml
 draw telescopic-boom.svg models/telescopic-boom.toml

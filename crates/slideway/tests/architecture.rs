@@ -17,7 +17,7 @@ const IMPORTS: &[(&str, &[&str])] = &[
     ("mechanism", &["dense", "expression", "fault", "ids", "interval", "model", "modes", "units"]),
     ("configuration", &["dense", "fault", "ids", "interval", "mechanism", "model", "progress"]),
     ("kinetics", &["configuration", "dense", "fault", "ids", "interval", "mechanism", "model", "units"]),
-    ("influence", &["ids", "kinetics", "units"]),
+    ("influence", &["ids", "kinetics", "mechanism", "units"]),
     ("law", &["interval", "mechanism", "model", "modes"]),
     ("report", &["choice", "fault", "ids", "printable", "units"]),
     ("problem", &["ids", "interval", "mechanism", "model", "modes"]),

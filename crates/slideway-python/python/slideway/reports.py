@@ -190,6 +190,7 @@ __all__ = [
     "Threshold",
     "Tipping",
     "TippingLimit",
+    "TippingRange",
     "TipsAt",
     "TreeReport",
     "UncertainMode",
@@ -2282,7 +2283,7 @@ class Margins(Record):
     below: TippingLimit | None = None
     """With less friction: below which it tips or jams; absent if nothing happens down to none, and where it tips
     or jams as it is."""
-    tips_between: tuple[float | None, float | None] | None = None
+    tips_between: TippingRange | None = None
     """Of what tips as it is: between which factors of friction it does; absent elsewhere."""
     solutions_again: float | None = None
     """From this greater factor on there are solutions again; absent if there are none."""
@@ -3276,6 +3277,16 @@ class TippingLimit(Record):
     """As a factor of that of the model."""
     joints: tuple[str, ...]
     """The joints that tip; none where it jams."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TippingRange(Record):
+    """The factors of friction between which something tips."""
+
+    from_: float | None = None
+    """Absent if it tips down to no friction."""
+    to: float | None = None
+    """Absent if it tips however great the friction is."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -202,7 +202,7 @@ impl Mechanism {
         let Some(body) = face.block.body().filter(|_| face.round.is_none()) else { return false };
         let (body, away) = (&self.bodies[body.index()], rot90(face.tangent));
         let weight = body.mass * away.dot(&self.gravity);
-        weight < 0.0 && away.dot(&(body.centre_of_mass - face.at)) < 0.0
+        weight < 0.0 && self.gap_in_drawing(face, (body.centre_of_mass, 0.0)) < 0.0
     }
 
     /// The distance of a corner or rim from a face in the drawing (m).

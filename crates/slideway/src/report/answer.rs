@@ -3,7 +3,7 @@
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
     Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
-    SpeedChange, Status, Verdict, capital, it_would_tip, with_less,
+    SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
 };
 use crate::units::brief;
 
@@ -255,12 +255,12 @@ impl SolveReport {
         let what = lifting(solution).map_or_else(String::new, |lifts| format!(": {lifts}"));
         let factors = self.margins.as_ref().and_then(|margins| Some((margins.tips_between?, margins.mu)));
         let at = |factor: f64, mu: Option<f64>| least_friction(factor, mu.map(|mu| factor * mu));
-        let range = match factors {
-            Some(([Some(from), None], mu)) => format!(" (from {} on)", at(from, mu)),
-            Some(([None, Some(to)], mu)) => format!(" (below {})", at(to, mu)),
-            Some(([Some(from), Some(to)], mu)) => format!(" (from {} to {})", at(from, mu), at(to, mu)),
-            _ => String::new(),
-        };
+        let range = factors.map_or_else(String::new, |(TippingRange { from, to }, mu)| match (from, to) {
+            (Some(from), None) => format!(" (from {} on)", at(from, mu)),
+            (None, Some(to)) => format!(" (below {})", at(to, mu)),
+            (Some(from), Some(to)) => format!(" (from {} to {})", at(from, mu), at(to, mu)),
+            (None, None) => String::new(),
+        });
         let rest = match (self.needs(solution), self.changes(solution).as_slice()) {
             (needs, _) if !needs.is_empty() => format!(" {}.", needs.join(", ")),
             (_, []) => String::new(),

@@ -503,7 +503,7 @@ pub struct Margins {
     pub below: Option<TippingLimit>,
     /// Of what tips as it is: between which factors of friction it does; absent elsewhere.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub tips_between: Option<[Option<f64>; 2]>,
+    pub tips_between: Option<TippingRange>,
     /// From this greater factor on there are solutions again; absent if there are none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub solutions_again: Option<f64>,
@@ -534,6 +534,18 @@ pub struct TippingLimit {
     pub factor: f64,
     /// The joints that tip; none where it jams.
     pub joints: Vec<String>,
+}
+
+/// The factors of friction between which something tips.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct TippingRange {
+    /// Absent if it tips down to no friction.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<f64>,
+    /// Absent if it tips however great the friction is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub to: Option<f64>,
 }
 
 /// The friction below which a mechanism that is locked would move.

@@ -37,10 +37,10 @@ impl Words<'_> {
         let asks_for_drive =
             !self.driven && report.against == MarginKind::Locking && report.present.is != SampleKind::Finite;
         let mut sentences = if asks_for_drive && self.never_jams() {
-            let tips = if report.may_tip { " or tip" } else { "" };
+            let tips = if report.may_tip { " or tips" } else { "" };
             let range = report.vary.shown_in.range(&report.vary.name, [report.vary.from, report.vary.to]);
             vec![format!(
-                "Without a drive it cannot jam{tips}, whatever the friction: the loads stay as they are ({range})."
+                "Without a drive nothing jams{tips} it, however great the friction, at any {range}."
             )]
         } else {
             let constant = self.constant().filter(|_| !report.met.is_empty());

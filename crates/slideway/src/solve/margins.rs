@@ -16,7 +16,8 @@ use crate::modes::existence::{
 use crate::modes::{ContactState, InfluenceCoefficients, ModeProblem};
 use crate::problem::rougher;
 use crate::report::{
-    self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, TippingLimit, Unlocking,
+    self, CriticalContact, Margins, MarginsMissing, SolveReport, Status, TippingLimit, TippingRange,
+    Unlocking,
 };
 
 /// The most patterns for which margins are computed.
@@ -255,7 +256,7 @@ impl Growth {
 
     /// Between which factors a block tips that does as it is: from where nothing tips with less friction, up to where nothing
     /// does with more; none where nothing tips, and of an end that is not there.
-    fn tips_between(&self, falling: &Self, mechanism: &Mechanism) -> Option<[Option<f64>; 2]> {
+    fn tips_between(&self, falling: &Self, mechanism: &Mechanism) -> Option<TippingRange> {
         let tips = |mode: &&ModeInterval| !mechanism.tipped(&mode.pattern).is_empty();
         let now = |mode: &&ModeInterval| mode.from.at <= 1.0 + AT_ONCE;
         self.existence.modes.iter().filter(now).find(tips)?;
@@ -264,7 +265,7 @@ impl Growth {
         }
         let from = upright(&falling.existence, mechanism).map(|mode| mode.to.at).reduce(f64::max);
         let to = upright(&self.existence, mechanism).map(|mode| mode.from.at).reduce(f64::min);
-        Some([from, to])
+        Some(TippingRange { from, to })
     }
 
     /// The factor beyond that from which on there are solutions or gap states again.
