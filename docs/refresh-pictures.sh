@@ -77,7 +77,7 @@ plot slider-crank.svg models/slider-crank.toml --vary "phi=-80 deg..80 deg" --qu
 "$slideway" map models/four-bar.toml --x "phi=0 deg..360 deg" --y mu_pin=0..1 --output "$pictures/map-treadle.svg" --force
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
-"$slideway" new axis "$work/axis.toml" >"$work/axis.txt"
+"$slideway" new axis --output - >"$work/axis.toml"
 "$slideway" map "$work/axis.toml" --x "a=-300 mm..300 mm" --y "h=-300 mm..300 mm" --output "$pictures/map-axis.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
