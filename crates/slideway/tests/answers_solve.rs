@@ -251,7 +251,7 @@ fn a_dimension_and_the_present_safety_factor_are_two() {
     let any = any.expect("an answer").answer();
     assert!(
         any.starts_with(
-            "Without a drive nothing jams it, however great the friction, at any l from 0.2 to 5 m."
+            "While it moves nothing jams it, however great the friction, at any l from 0.2 to 5 m."
         ),
         "{any}"
     );

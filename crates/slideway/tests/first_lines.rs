@@ -232,7 +232,7 @@ fn of_size(outcome: Outcome) -> First {
         }
         Several => Line(
             sized("klepp-2002", &[], "l=0.2 m..5 m"),
-            "Without a drive nothing jams it, however great the friction, at any l from 0.2 to 5 m. ",
+            "While it moves nothing jams it, however great the friction, at any l from 0.2 to 5 m. ",
         ),
         Undetermined => Line(
             sized(EQUAL_PLAY, &[], "mu=0.1..0.5"),
@@ -240,7 +240,7 @@ fn of_size(outcome: Outcome) -> First {
         ),
         Gap => Line(
             sized("klepp-2002", &IN_GAP, "l=0.9 m..1.1 m"),
-            "Without a drive nothing jams it, however great the friction, at any l from 0.9 to 1.1 m. ",
+            "While it moves nothing jams it, however great the friction, at any l from 0.9 to 1.1 m. ",
         ),
         Tip => Line(
             sized(TIPPING_PRESS, &[], "mu=0.1..1"),
@@ -252,7 +252,7 @@ fn of_size(outcome: Outcome) -> First {
         ),
         SlowsDown => Line(
             sized(PEG, &[], "mu=0.3..0.5"),
-            "Without a drive nothing jams it, however great the friction, at any mu from 0.3 to 0.5. ",
+            "While it moves nothing jams it, however great the friction, at any mu from 0.3 to 0.5. ",
         ),
         Rests => {
             // With 1/3 at the floor and 0.2 at the wall: (middle of the weights) = (1/3)/(1 + 0.2/3) (tan 60 deg + 0.2) = 0.603766,

@@ -39,9 +39,7 @@ impl Words<'_> {
         let mut sentences = if asks_for_drive && self.never_jams() {
             let tips = if report.may_tip { " or tips" } else { "" };
             let range = report.vary.shown_in.range(&report.vary.name, [report.vary.from, report.vary.to]);
-            vec![format!(
-                "Without a drive nothing jams{tips} it, however great the friction, at any {range}."
-            )]
+            vec![format!("While it moves nothing jams{tips} it, however great the friction, at any {range}.")]
         } else {
             let constant = self.constant().filter(|_| !report.met.is_empty());
             [self.answer(), self.present()].into_iter().chain(constant).collect()
