@@ -338,7 +338,9 @@ fn cause<'r>(is: ModeEndCause, at: &[String], grows: impl Iterator<Item = (&'r s
     match is {
         ModeEndCause::Range => "end of the range".to_owned(),
         ModeEndCause::Locking | ModeEndCause::WithoutBound => {
-            let growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
+            let mut growing: Vec<&str> = grows.filter(|(_, sign)| *sign != 0).map(|(name, _)| name).collect();
+            // Both parts of a force across a rod have its name.
+            growing.dedup();
             match (growing.as_slice(), is) {
                 ([], ModeEndCause::Locking) => "it jams".to_owned(),
                 ([], _) => "its forces grow without limit".to_owned(),

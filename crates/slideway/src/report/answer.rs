@@ -404,7 +404,9 @@ impl SolveReport {
         } else {
             ["any load", "Other loads"]
         };
-        Some(if factor < 1.0 {
+        Some(if factor == 0.0 {
+            format!("{other} can leave it several ways to move, even without friction.")
+        } else if factor < 1.0 {
             format!("{other} can jam it or leave it several ways to move, already from {times} on.")
         } else {
             safe_up_to(any, &times)

@@ -5,7 +5,7 @@ use super::stages::Stages;
 use super::state::{pattern, signs};
 use super::upright::{Upright, upright};
 use crate::enclosure::EnclosedModeProblem;
-use crate::interval::Interval;
+use crate::interval::{Interval, Sign};
 use crate::mechanism::Mechanism;
 use crate::model::Model;
 use crate::modes::certificate::{IntervalModeProblem, proven_determinant_sign};
@@ -105,6 +105,13 @@ pub(super) fn add(
 /// determinants of all of these parts count, each with one face of a press fit at most.
 fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProblem) -> Option<f64> {
     let mut coefficients = enclosed.coefficients.clone();
+    if data.mechanism.has_one_sided() {
+        match unique_without_friction(&coefficients) {
+            Some(true) => {}
+            Some(false) => return Some(0.0),
+            None => return None,
+        }
+    }
     let Some(shared) = &mut coefficients.shared else {
         let jumps = all.line.has_jump.contains(&true);
         return (!jumps).then(|| first_locking(&all.line, &coefficients)).flatten();
@@ -123,6 +130,30 @@ fn uniqueness(data: ProblemData<'_>, all: &Growth, enclosed: &EnclosedModeProble
     }
     let line = ProblemData { mechanism: &loose, ..data }.growing_friction(&|_| true).ok()?;
     first_locking(&line, &coefficients)
+}
+
+/// Returns whether without friction every load has exactly one solution: whether the determinants of all patterns are proven to
+/// have the orientation of the pattern (theory, section 5). Where each contact has two faces they do; of contacts that may lift
+/// off it depends on what drives hold. `None` if a sign is not proven.
+fn unique_without_friction(coefficients: &InfluenceCoefficients<Interval>) -> Option<bool> {
+    let smooth = IntervalModeProblem::from_influence(&rougher(coefficients, &[], Interval::ZERO)).ok()?;
+    let contacts = coefficients.contacts();
+    let patterns =
+        1_u64.checked_shl(u32::try_from(contacts).ok()?).filter(|patterns| *patterns <= PATTERNS)?;
+    let mut all_proven = true;
+    for number in 0..patterns {
+        let is_negative = |contact: usize| number >> contact & 1 == 1;
+        let state =
+            |contact| if is_negative(contact) { ContactState::Negative } else { ContactState::Positive };
+        let pattern: Vec<ContactState> = (0..contacts).map(state).collect();
+        let expected = if number.count_ones() % 2 == 0 { Sign::Positive } else { Sign::Negative };
+        match proven_determinant_sign(&smooth, &pattern) {
+            Some(sign) if sign == expected => {}
+            Some(Sign::Positive | Sign::Negative) => return Some(false),
+            _ => all_proven = false,
+        }
+    }
+    all_proven.then_some(true)
 }
 
 /// The factor at which a determinant along a line is proven to change its sign, with bounds of the same numbers.

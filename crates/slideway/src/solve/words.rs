@@ -127,10 +127,10 @@ fn on_rod(mechanism: &Mechanism, slider: &Slider, guide: &GuideInWords, signs: &
     let ends: Vec<(&str, String)> = ends.filter_map(pushed).collect();
     let [(_, first), others @ ..] = ends.as_slice() else { return None };
     if others.iter().all(|(_, towards)| towards == first) {
-        return Some(format!("the rod pushes it {first}"));
+        return Some(format!("pushed {first} by the rod"));
     }
     let each: Vec<String> = ends.iter().map(|(name, towards)| format!("{name} {towards}")).collect();
-    Some(format!("the rod pushes {}", each.join(", ")))
+    Some(format!("pushed by the rod: {}", each.join(", ")))
 }
 
 fn on_guide(mechanism: &Mechanism, slider: &Slider, tangent: Vector2<f64>, signs: &[i8]) -> String {

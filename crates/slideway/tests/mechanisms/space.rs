@@ -1251,3 +1251,30 @@ fn a_motion_ends_where_a_carriage_tips() {
     let told = "guide.rear_middle lifts off, and carriage leaves the plane of its motion";
     assert!(words.contains(told), "{words}");
 }
+
+/// A sled on three corners whose bottom is driven by a pull high above it: already without friction it can stay, or tip with either
+/// end up, since a drive holds what lifts (three solutions, by the determinants of the 8 patterns of its corners). So there is no
+/// friction up to which every load has one solution.
+#[test]
+fn what_a_drive_holds_may_have_several_solutions_without_friction() {
+    let sled = |mu: f64| {
+        report_on(&format!(
+            "gravity = [0, 0, -9.81]\n[points]\no = [0, 0]\nrope = [0.05, 0, 0.15]\nS = [0, 0, 0.05]\n\
+             [bodies.sled]\npoints = [\"o\", \"rope\", \"S\"]\nmass = 4\ncentre_of_mass = \"S\"\n\
+             shape = {{ box = [0.1, 0.08, 0.1] }}\n\
+             [joints.bed]\ntype = \"block_slider\"\nblock = \"sled\"\nat = \"o\"\nalong = 0\nlength = 0.1\nmu = {mu}\n\
+             rests_on = {{ width = 0.06, one_sided = true, corners = 3 }}\n\
+             [coordinates.x]\nslide = \"bed\"\nrate = 0.1\n\
+             [drives.pull]\ncoordinate = \"x\"\nforce = {{ at = \"sled.rope\", direction = 0 }}\n"
+        ))
+    };
+    for mu in [0.0, 0.05] {
+        let report = sled(mu);
+        assert_eq!(report.solutions.len(), 3, "{}", text(&report));
+        assert!(!text(&report).contains("in one way only"), "{}", text(&report));
+    }
+    assert_eq!(sled(0.05).margins.unwrap().uniqueness, Some(0.0));
+    assert!(
+        text(&sled(0.05)).contains("Other loads can leave it several ways to move, even without friction.")
+    );
+}
