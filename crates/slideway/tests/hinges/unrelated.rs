@@ -77,10 +77,15 @@ pub(super) fn may_lift_off(text: &str) -> bool {
     ["_on_face\"", "disc_on_disc\"", "loose = true"].iter().any(|kind| text.contains(kind))
 }
 
+/// Whether a model says nothing of what is out of its plane, where rough hinges are not computed.
+pub(super) fn is_planar(text: &str) -> bool {
+    Mechanism::new(&Model::parse(text).unwrap()).unwrap().space.is_none()
+}
+
 #[test]
 fn an_unrelated_pendulum_changes_no_motion_of_the_gallery() {
     let mut failed = String::new();
-    for model in gallery::MODELS {
+    for model in gallery::MODELS.iter().filter(|model| is_planar(model.text)) {
         for difference in differences(model.text, 0.2) {
             writeln!(failed, "{}: {difference}", model.name).unwrap();
         }
