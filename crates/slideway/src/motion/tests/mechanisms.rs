@@ -154,8 +154,9 @@ const fn balanced(name: &'static str, duration: f64, events: usize) -> Balanced 
 
 /// Every gallery model with inertia or a drive, so that something happens in each: driven ones are slowed down until
 /// they return, or go on through places where hinges turn back.
-const BALANCED: [Balanced; 33] = [
+const BALANCED: [Balanced; 35] = [
     balanced("bell-crank", 1.0, 0),
+    balanced("boom-in-wind", 1.0, 1),
     balanced("box-on-incline", 0.3, 1),
     balanced("cam-and-spring", 0.3, 5),
     balanced("cam-follower", 1.0, 2),
@@ -163,6 +164,7 @@ const BALANCED: [Balanced; 33] = [
         replaced: Some(("acceleration = 0", "acceleration = \"-0.4 m/s^2\"")),
         ..balanced("drawer", 1.0, 1)
     },
+    balanced("drawer-on-runners", 1.0, 0),
     balanced("elliptic-trammel", 1.0, 5),
     balanced("four-bar", 0.16, 1),
     balanced("frictional-oscillator", 1.0, 5),
