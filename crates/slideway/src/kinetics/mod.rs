@@ -707,11 +707,7 @@ impl<T: Real> Mechanism<T> {
             }
             (JointKind::Slider(slider), Some([along_n, _])) => {
                 let contact = &contacts[along_n.index()];
-                let force = contact.tangent * couple;
-                let on = |frame: Frame, force: Vector2<T>| {
-                    Wrench::force(frame, contact.point, force).in_space(contact.z, T::zero())
-                };
-                vec![on(slider.block, force), on(slider.guide, -force)]
+                along_guide(slider, (contact.point, contact.z), contact.tangent * couple).into()
             }
             (JointKind::Slider(_), None) => Vec::new(),
         }
@@ -797,6 +793,15 @@ pub(crate) fn friction_forces<T: Real>(
     let half = sign * (height.unwrap_or(slider.height) / T::exactly(2.0));
     let place = contact.point - contact.normal * half;
     let z = contact.lean.map_or(contact.z, |[_, sin]| contact.z - sin * half);
+    along_guide(slider, (place, z), contact.tangent * -friction)
+}
+
+/// A force in the drawing on the block at a place, and its opposite on the guide.
+fn along_guide<T: Real>(
+    slider: &Slider<T>,
+    (place, z): (Vector2<T>, T),
+    force: Vector2<T>,
+) -> [Wrench<T>; 2] {
     let on = |frame: Frame, force: Vector2<T>| Wrench::force(frame, place, force).in_space(z, T::zero());
-    [on(slider.block, contact.tangent * -friction), on(slider.guide, contact.tangent * friction)]
+    [on(slider.block, force), on(slider.guide, -force)]
 }

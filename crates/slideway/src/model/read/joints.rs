@@ -201,9 +201,7 @@ impl Reader<'_> {
         for (place, table) in ends.into_iter().chain(supports) {
             self.valid_name("support", place, span);
             let contact = format!("{name}.{place}");
-            if contacts.iter().any(|other| *other.name == *contact) {
-                self.fault(FaultKind::SharedContact { name: contact.clone() }, span);
-            }
+            self.new_contact(&contacts, &contact, span);
             let friction = self.friction(table, false, &contact, span).or(all);
             let wanted = Wanted::constant(format!("the place of {contact}"), Dimension::LENGTH);
             let offset = table.at.as_ref().map(|at| self.formula(at, wanted));
@@ -227,6 +225,13 @@ impl Reader<'_> {
             self.corners(rests_on, all, (&mut contacts, name, span));
         }
         contacts
+    }
+
+    /// Refuses the name of a contact that another one of its block has.
+    fn new_contact(&mut self, contacts: &[Contact], name: &str, span: &Span) {
+        if contacts.iter().any(|other| *other.name == *name) {
+            self.fault(FaultKind::SharedContact { name: name.to_owned() }, span);
+        }
     }
 
     /// The corners by which a block rests on its guide, behind its other contacts.
@@ -268,9 +273,7 @@ impl Reader<'_> {
         let friction = self.friction(&table, false, &format!("the corners of {name}"), span).or(all);
         for &(end, corner) in ends {
             let contact = format!("{name}.{end}");
-            if contacts.iter().any(|other| *other.name == *contact) {
-                self.fault(FaultKind::SharedContact { name: contact.clone() }, span);
-            }
+            self.new_contact(contacts, &contact, span);
             let mut rest = self.contact(friction, contact, name, span);
             if written.one_sided == Some(true) {
                 self.make_one_sided(&mut rest, span);
