@@ -91,6 +91,7 @@ function refresh() {
     (...given) => {
       if (asking === state) act(...given);
     };
+  told("asking");
   const wanted = (margins) =>
     newest.want(
       () => ({
@@ -226,9 +227,9 @@ function keep() {
   navigator.serviceWorker.register("service.js").catch(() => {});
 }
 
-/** What has become of the present text, for tests. */
-function told(what, question = state) {
-  if (question.text === state.text) document.documentElement.dataset.state = what;
+/** What has become of the present text and settings, for tests; `question`: the one that this answers. */
+function told(what, question = state.asked()) {
+  if (questioned(question) === questioned(state.asked())) document.documentElement.dataset.state = what;
 }
 
 function failed(error) {
@@ -327,7 +328,6 @@ function begin(next) {
   state = next;
   look = null;
   kept = { held: null, text: "" };
-  told("asking");
   if (!isHere) {
     verdict.begin();
     byId("drawings").classList.add("stale");
