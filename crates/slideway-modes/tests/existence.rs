@@ -401,3 +401,59 @@ fn a_force_that_vanishes_throughout_ends_no_mode() -> Result<(), Box<dyn Error>>
     assert_eq!(counts.iter().map(|count| count.solutions).collect::<Vec<_>>(), [1]);
     Ok(())
 }
+
+/// Two side guides that carry nothing, whatever the friction: their forces are zero but for the rounding of equations
+/// that mix all contacts. Which of their faces is taken changes no interval of the others, and no force of theirs is
+/// named where a mode ends. The equations `x = b + t H abs(x)` of three more contacts are turned by a random rotation.
+#[test]
+fn what_carries_nothing_but_rounding_ends_no_mode() -> Result<(), Box<dyn Error>> {
+    let mut random = Random::new(20);
+    let mut found = 0;
+    for round in 0..100 {
+        let size = 5;
+        let couplings =
+            DMatrix::from_fn(
+                size,
+                size,
+                |row, column| {
+                    if row < 2 || column < 2 { 0.0 } else { random.number() }
+                },
+            );
+        let load = DVector::from_fn(size, |row, _| if row < 2 { 0.0 } else { 100.0 * random.number() });
+        let turned = random.matrix(size, size).qr().q();
+        let at = |t: f64| {
+            let columns = |side: f64| &turned * (DMatrix::identity(size, size) * side - t * &couplings);
+            let none = || DMatrix::zeros(size, size);
+            ModeProblem::new(columns(1.0), columns(-1.0), none(), none(), &turned * &load)
+        };
+        let line = ModeProblemLine::between(&at(0.0)?, &at(1.0)?);
+        for range in [[0.0, 2.0], [1.0, f64::INFINITY]] {
+            let existence = line.existence(&options(range[0], range[1]))?;
+            assert!(existence.not_computed.is_empty(), "round {round}: {:?}", existence.not_computed);
+            let of_faces = |faces: &str| -> Vec<(String, [f64; 2])> {
+                let modes = existence.modes.iter().filter(|mode| signs(mode).starts_with(faces));
+                modes.map(|mode| (signs(mode)[2..].to_owned(), [mode.from.at, mode.to.at])).collect()
+            };
+            let expected = of_faces("++");
+            found += expected.len();
+            for faces in ["+-", "-+", "--"] {
+                let other = of_faces(faces);
+                assert_eq!(other.len(), expected.len(), "round {round}, {faces}: {other:?}, {expected:?}");
+                for ((one, [from, to]), (same, ends)) in other.iter().zip(&expected) {
+                    let is_near =
+                        |one: f64, other: f64| one == other || (one - other).abs() <= 1e-7 * other.abs();
+                    assert!(
+                        one == same && is_near(*from, ends[0]) && is_near(*to, ends[1]),
+                        "round {round}, {range:?}, {faces}: {other:?}, {expected:?}"
+                    );
+                }
+            }
+            let named = existence.modes.iter().flat_map(|mode| [&mode.from.cause, &mode.to.cause]).any(|cause| {
+                matches!(cause, EndCause::SideChange(contacts) if contacts.iter().all(|contact| *contact < 2))
+            });
+            assert!(!named, "round {round}: {:#?}", existence.modes);
+        }
+    }
+    assert!(found > 200, "{found}");
+    Ok(())
+}

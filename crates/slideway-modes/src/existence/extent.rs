@@ -80,6 +80,7 @@ impl Line {
         }
         let (_, at, lu) = best.filter(|(ratio, ..)| *ratio > SMALLEST_PIVOT)?;
         Reduced::new(self, conditions, at, &lu)
+            .map(|reduced| Reduced { equalities: self.equalities(conditions, range), ..reduced })
     }
 }
 
@@ -97,7 +98,7 @@ fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
     }
     for condition in reduced.order(range) {
         let cause = Cause::Conditions(vec![condition]);
-        if signs.numerators[condition].is_none() && !reduced.vanishes_throughout(condition, range) {
+        if signs.numerators[condition].is_none() {
             cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
         }
         parts.retain(|part| reduced.value(condition, part.middle()).is_some_and(Value::is_met));
@@ -154,7 +155,7 @@ fn polish(reduced: &Reduced, end: &mut End, inside: f64) {
             let vanishes = |&condition: &usize| {
                 condition == first || reduced.value(condition, at).is_some_and(Value::vanishes)
             };
-            *conditions = (0..reduced.conditions()).filter(vanishes).collect();
+            *conditions = reduced.inequalities().filter(vanishes).collect();
         }
     }
 }

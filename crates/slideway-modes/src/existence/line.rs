@@ -155,13 +155,39 @@ impl Line {
     }
 
     /// Which unknowns are zero within rounding, at a parameter where the equations are regular: not greater
-    /// than the tolerance times `|A^-1| (|A| |z| + |b|)`, the size of the terms that they are composed of.
+    /// than the tolerance times [`Self::sizes`].
     pub(super) fn vanishes(&self, at: f64) -> Option<Vec<bool>> {
+        let (solution, sizes) = self.sizes(at)?;
+        Some(solution.iter().zip(&sizes).map(|(value, size)| value.abs() <= TOLERANCE * size).collect())
+    }
+
+    /// The solution at a parameter, and `|A^-1| (|A| |z| + |b|)`, the size of the terms that it is composed of.
+    fn sizes(&self, at: f64) -> Option<(DVector<f64>, DVector<f64>)> {
         let (matrix, right) = (self.matrix_at(at), self.right_hand_side_at(at));
         let solution = self.solution(at)?;
         let terms = matrix.abs() * solution.abs() + right.abs();
-        let size = matrix.try_inverse()?.abs() * terms;
-        Some(solution.iter().zip(&size).map(|(value, size)| value.abs() <= TOLERANCE * size).collect())
+        Some((solution, matrix.try_inverse()?.abs() * terms))
+    }
+
+    /// Which conditions are equalities for all parameters of a range, within rounding: the numerator of a value has at
+    /// most one degree more than there are columns that vary, and vanishes throughout if it does at one place more.
+    pub(super) fn equalities(&self, conditions: &[Condition], [from, to]: [f64; 2]) -> Vec<bool> {
+        let varying = self.matrix[1].column_iter().filter(|column| column.amax() > 0.0).count();
+        let places = varying + 2;
+        let mut found = vec![true; conditions.len()];
+        for index in 0..places {
+            let at = from + (to - from) * (index as f64 + 0.5) / places as f64;
+            let Some((solution, sizes)) = self.sizes(at) else { return vec![false; conditions.len()] };
+            for (is_equality, condition) in found.iter_mut().zip(conditions) {
+                let value = condition.times(solution.as_slice()) + condition.offset;
+                let magnitude = condition.magnitude(sizes.as_slice()) + condition.offset.abs();
+                *is_equality &= Value { value, magnitude }.vanishes();
+            }
+            if !found.contains(&true) {
+                break;
+            }
+        }
+        found
     }
 
     /// The behaviour of every unknown towards the end of a part, whose other end is given.

@@ -33,6 +33,8 @@ pub(super) struct Reduced {
     pub(super) values: [DVector<f64>; 2],
     /// `|w| . |z_0| + |offset|`.
     pub(super) magnitudes: DVector<f64>,
+    /// Which conditions are equalities throughout: they hold, whichever sign rounding gives them.
+    pub(super) equalities: Vec<bool>,
 }
 
 impl Reduced {
@@ -67,6 +69,7 @@ impl Reduced {
                 list(&|condition| condition.times(rate.as_slice())),
             ],
             magnitudes: list(&|condition| condition.magnitude(start.as_slice()) + condition.offset.abs()),
+            equalities: vec![false; conditions.len()],
         })
     }
 
@@ -74,13 +77,18 @@ impl Reduced {
         self.magnitudes.len()
     }
 
-    /// The conditions, ordered so that those violated at most places of the range come first.
+    /// The conditions that are no equalities throughout.
+    pub(super) fn inequalities(&self) -> impl Iterator<Item = usize> {
+        (0..self.conditions()).filter(|&condition| !self.equalities[condition])
+    }
+
+    /// The inequalities, ordered so that those violated at most places of the range come first.
     pub(super) fn order(&self, range: [f64; 2]) -> Vec<usize> {
         let places = [0.13, 0.41, 0.66, 0.94].map(|fraction| range[0] + fraction * (range[1] - range[0]));
         let met = |condition: usize| {
             places.iter().filter(|&&at| self.value(condition, at).is_some_and(Value::is_met)).count()
         };
-        let mut order: Vec<(usize, usize)> = (0..self.conditions()).map(|c| (met(c), c)).collect();
+        let mut order: Vec<(usize, usize)> = self.inequalities().map(|c| (met(c), c)).collect();
         order.sort_unstable();
         order.into_iter().map(|(_, condition)| condition).collect()
     }
@@ -119,14 +127,6 @@ impl Reduced {
         let value = constant + linear - correction;
         let magnitude = self.magnitudes[condition] + linear.abs() + size;
         value.is_finite().then_some(Value { value, magnitude })
-    }
-
-    /// Whether a condition is an equality for all parameters, within rounding: the numerator of its value has at most
-    /// one degree more than there are varying columns, and vanishes throughout if it does at one place more.
-    pub(super) fn vanishes_throughout(&self, condition: usize, [from, to]: [f64; 2]) -> bool {
-        let places = self.k.nrows() + 2;
-        let place = |index: usize| from + (to - from) * (index as f64 + 0.5) / places as f64;
-        (0..places).all(|index| self.value(condition, place(index)).is_some_and(Value::vanishes))
     }
 
     /// Where `det A(t)` may vanish: `tau = -1 / (eigenvalue of K)`. `None` if the eigenvalues could not be

@@ -79,6 +79,9 @@ impl Reduced {
         let power = |count: usize| (0..count).map(|_| growth).product::<f64>();
         let source = self.sources[0].lp_norm(1) + reach * self.sources[1].lp_norm(1);
         let numerator = |condition: usize| {
+            if self.equalities[condition] {
+                return None;
+            }
             let linear = reach * self.values[1][condition].abs();
             let coupling = reach * self.couplings.row(condition).lp_norm(1);
             let size = (self.magnitudes[condition] + linear) * power(columns)
