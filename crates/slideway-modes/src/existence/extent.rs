@@ -38,7 +38,7 @@ impl Line {
         }
         let (line, conditions) = self.in_units(conditions, range);
         let Some(reduced) = line.reduced(&conditions, range) else { return Extent::SingularThroughout };
-        match parts(&reduced, range) {
+        match line.parts((&reduced, &conditions), range) {
             Some(parts) => Extent::Parts(parts),
             None => Extent::NotComputed,
         }
@@ -81,37 +81,52 @@ impl Line {
         let (_, at, lu) = best.filter(|(ratio, ..)| *ratio > SMALLEST_PIVOT)?;
         Reduced::new(self, conditions, at, &lu)
     }
-}
 
-/// The parts of a range in which all conditions hold; `None` if eigenvalues could not be computed.
-fn parts(reduced: &Reduced, range: [f64; 2]) -> Option<Vec<Part>> {
-    let signs = reduced.signs(range);
-    if signs.exclude() {
-        return Some(Vec::new());
+    /// Whether all unknowns of a condition without offset are zero within rounding at a parameter.
+    fn is_equality(&self, condition: &Condition, at: f64) -> bool {
+        let mut unknowns = condition.weights.iter().filter(|(_, weight)| *weight != 0.0);
+        condition.offset == 0.0
+            && self.vanishes(at).is_some_and(|vanishes| unknowns.all(|(unknown, _)| vanishes[*unknown]))
     }
-    let end = |at| End { at, cause: Cause::Range };
-    let mut parts = vec![Part { from: end(range[0]), to: end(range[1]) }];
-    let room = SAME_PLACE * (range[1] - range[0]);
-    if signs.determinant.is_none() {
-        cut(&mut parts, &reduced.poles()?, &Cause::Singular, room);
-    }
-    for condition in reduced.order(range) {
-        let cause = Cause::Conditions(vec![condition]);
-        if signs.numerators[condition].is_none() && !reduced.vanishes_throughout(condition, range) {
-            cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
+
+    /// The parts of a range in which all conditions hold; `None` if eigenvalues could not be computed.
+    fn parts(&self, (reduced, conditions): (&Reduced, &[Condition]), range: [f64; 2]) -> Option<Vec<Part>> {
+        let signs = reduced.signs(range);
+        if signs.exclude() {
+            return Some(Vec::new());
         }
-        parts.retain(|part| reduced.value(condition, part.middle()).is_some_and(Value::is_met));
-        merge(&mut parts, &cause);
-        if parts.is_empty() {
-            break;
+        let end = |at| End { at, cause: Cause::Range };
+        let mut parts = vec![Part { from: end(range[0]), to: end(range[1]) }];
+        let room = SAME_PLACE * (range[1] - range[0]);
+        if signs.determinant.is_none() {
+            cut(&mut parts, &reduced.poles()?, &Cause::Singular, room);
         }
+        for condition in reduced.order(range) {
+            let cause = Cause::Conditions(vec![condition]);
+            if signs.numerators[condition].is_none() {
+                // Of what is zero throughout rounding would decide the sign.
+                let vanishes = |at| {
+                    reduced.value(condition, at).is_some_and(Value::vanishes)
+                        || self.is_equality(&conditions[condition], at)
+                };
+                if reduced.places(range).all(vanishes) {
+                    continue;
+                }
+                cut(&mut parts, &reduced.zeros(condition)?, &cause, room);
+            }
+            parts.retain(|part| reduced.value(condition, part.middle()).is_some_and(Value::is_met));
+            merge(&mut parts, &cause);
+            if parts.is_empty() {
+                break;
+            }
+        }
+        for part in &mut parts {
+            let middle = part.middle();
+            polish(reduced, &mut part.from, middle);
+            polish(reduced, &mut part.to, middle);
+        }
+        Some(parts)
     }
-    for part in &mut parts {
-        let middle = part.middle();
-        polish(reduced, &mut part.from, middle);
-        polish(reduced, &mut part.to, middle);
-    }
-    Some(parts)
 }
 
 /// Cuts parts at roots inside them, that is, not within `room` of an end.

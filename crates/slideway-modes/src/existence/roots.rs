@@ -121,12 +121,11 @@ impl Reduced {
         value.is_finite().then_some(Value { value, magnitude })
     }
 
-    /// Whether a condition is an equality for all parameters, within rounding: the numerator of its value has at most
-    /// one degree more than there are varying columns, and vanishes throughout if it does at one place more.
-    pub(super) fn vanishes_throughout(&self, condition: usize, [from, to]: [f64; 2]) -> bool {
+    /// The places at which a condition that is an equality at all of them is one for all parameters: the numerator of its value
+    /// has at most one degree more than there are varying columns.
+    pub(super) fn places(&self, [from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
         let places = self.k.nrows() + 2;
-        let place = |index: usize| from + (to - from) * (index as f64 + 0.5) / places as f64;
-        (0..places).all(|index| self.value(condition, place(index)).is_some_and(Value::vanishes))
+        (0..places).map(move |index| from + (to - from) * (index as f64 + 0.5) / places as f64)
     }
 
     /// Where `det A(t)` may vanish: `tau = -1 / (eigenvalue of K)`. `None` if the eigenvalues could not be
