@@ -173,7 +173,8 @@ impl<T: Real> Mechanism<T> {
     pub(crate) fn check_one_sided_in_excess(&self) -> Result<(), Faults> {
         let shares: Vec<ContactId> =
             self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
-        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts })
+        let in_space = self.space.is_some();
+        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts, in_space })
     }
 
     /// Refuses contacts that may lift off, for what is not known of them.
