@@ -307,12 +307,11 @@ impl<'p> ElasticGuides<'p> {
     /// Their friction follows the magnitude of their forces, so that the fast motion is linear on each side alone. If all sides
     /// have the same eigenvalues, all principal minors of the response of these forces to that friction vanish: it never acts back on
     /// them. They then move as without it, and the rest is a linear motion that they disturb from outside.
-    pub(crate) fn of_unpressed(
-        &self,
-        states: &[ContactState],
-        unpressed: &[usize],
-    ) -> Option<Attainability> {
-        if unpressed.len() > MOST_UNPRESSED || self.joints.inertia.is_err() {
+    pub(crate) fn of_unpressed(&self, states: &[ContactState], unpressed: &[usize]) -> Option<Attainability> {
+        if let Err((verdict, reason)) = &self.joints.inertia {
+            return Some(Attainability::without_eigenvalues(*verdict, reason));
+        }
+        if unpressed.len() > MOST_UNPRESSED {
             return None;
         }
         let on = |sides: usize| {

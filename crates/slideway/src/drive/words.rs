@@ -220,7 +220,11 @@ fn needs_several(report: &DriveReport, direction: &DriveDirection) -> String {
         [only] => settled(report, direction, only),
         several => {
             let efforts = efforts(several, ", or ");
-            format!("it can go on in {} ways, and {WHICH_WAY}: {} needs {efforts}.", several.len(), drive.name)
+            format!(
+                "it can go on in {} ways, and {WHICH_WAY}: {} needs {efforts}.",
+                several.len(),
+                drive.name
+            )
         }
     };
     match unstable.as_slice() {
@@ -260,8 +264,9 @@ fn tipping(direction: &DriveDirection) -> Option<String> {
 /// When other states appear or it would jam, or that it never does; nothing where that is not known.
 fn outlook(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Vec<String> {
     let at = |factor: f64| times_friction(factor, direction.mu.map(|mu| factor * mu));
-    let others =
-        direction.another_count.map(|changes| format!("from {} it may also move otherwise: `solve` with that friction shows how", at(changes)));
+    let others = direction.another_count.map(|changes| {
+        format!("from {} it may also move otherwise: `solve` with that friction shows how", at(changes))
+    });
     match jam(report, direction, is_advised) {
         Some(never) if direction.never_jams => {
             vec![never + &others.map_or_else(String::new, |others| format!(", but {others}")) + "."]

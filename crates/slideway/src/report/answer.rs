@@ -2,8 +2,8 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, JointMode, ModeEndCause, Margins, MarginsMissing, OnFace, Solution, SolveReport,
-    SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
+    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, ModeEndCause, OnFace, Solution,
+    SolveReport, SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
 };
 use crate::units::brief;
 
@@ -352,7 +352,10 @@ impl SolveReport {
             several => format!(" {several} other solutions are unstable: a real mechanism leaves them."),
         };
         match stable.as_slice() {
-            [] => format!("It has {} solutions, and all are unstable: a real mechanism leaves them.", self.count),
+            [] => format!(
+                "It has {} solutions, and all are unstable: a real mechanism leaves them.",
+                self.count
+            ),
             [only] if self.is_listed() => self.moves_in_words(only) + &unstable,
             several => {
                 let ways = if self.is_listed() { several.len().to_string() } else { self.count.clone() };

@@ -249,9 +249,8 @@ impl Answer<'_> {
     /// The contacts among these that nothing presses, where these alone are why a solution belongs to several modes: both sides of
     /// each are the same state.
     fn unpressed(&self, solution: &Solution, kept: &[usize]) -> Option<Vec<usize>> {
-        let is_plain = |k: usize| {
-            !self.mechanism.contacts[k].opens && !self.mechanism.excess.shares(ContactId(k))
-        };
+        let is_plain =
+            |k: usize| !self.mechanism.contacts[k].opens && !self.mechanism.excess.shares(ContactId(k));
         let contacts: Vec<usize> = unloaded(solution).collect();
         let are_all = solution.floating.is_empty() && solution.determinant != 0.0 && !contacts.is_empty();
         if !are_all || !contacts.iter().all(|&k| is_plain(k)) {

@@ -32,12 +32,7 @@ impl Upright {
     }
 
     /// Ends are those near the friction of the model, and far from it; the way is up or down.
-    fn towards(
-        existence: &Existence,
-        mechanism: &Mechanism,
-        ends: Ends,
-        way: f64,
-    ) -> Option<Self> {
+    fn towards(existence: &Existence, mechanism: &Mechanism, ends: Ends, way: f64) -> Option<Self> {
         let mut modes: Vec<&ModeInterval> = upright(existence, mechanism).collect();
         let near = |mode: &ModeInterval| way * ends(mode)[0].at;
         modes.sort_by(|one, other| near(one).total_cmp(&near(other)));
