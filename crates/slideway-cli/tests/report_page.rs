@@ -47,7 +47,7 @@ fn pages_have_all_parts_and_need_nothing_else() {
     assert_self_contained(&html);
     for part in [
         "<h1>A bar sliding in two horizontal slots</h1>",
-        "3 solutions: from this state it can go on in 2 ways.",
+        "It can go on in 2 ways, and what went before decides which.",
         "Proven: there are no other solutions.",
         "Solution 3 of 3",
         "Preload gap 1 of 1",

@@ -439,7 +439,7 @@ pub enum FaultKind {
         "{} may lift off, but with the other joints closed nothing says what each of them carries while it slides",
         listed(contacts)
     )]
-    OneSidedInExcess { contacts: Vec<String> },
+    OneSidedInExcess { contacts: Vec<String>, in_space: bool },
     #[error(
         "when {} lifted off, the acceleration could not be computed, as what moves then has no mass: {motion}",
         listed(contacts)
@@ -647,6 +647,13 @@ impl FaultKind {
             Self::NoneOf { one_of, .. } if one_of.contains(&"massless") => Some(
                 "write `mass = \"4 kg\"`, or `massless = true` if its weight and inertia do not matter".to_owned(),
             ),
+            Self::NoneOf { one_of, .. } if one_of.contains(&"moment_of_inertia") => Some(
+                "write the shape of the body, such as `shape = { rectangle = [\"200 mm\", \"100 mm\"] }`, in space `box` with three lengths; or `moment_of_inertia = \"0.1 kg m^2\"` about its centre of mass"
+                    .to_owned(),
+            ),
+            Self::WrongLength { place, found: 2, .. } if place.ends_with(".shape.box") => {
+                Some("in the plane write `rectangle`, which has two lengths; the third one of a box is along z".to_owned())
+            }
             Self::Doubt(doubt) => Some(doubt.hint_for(face)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
@@ -681,8 +688,11 @@ impl FaultKind {
             Self::GuidedPressFit { .. } => Some(
                 "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
             ),
-            Self::OneSidedInExcess { .. } => Some(
-                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; of `rests_on` write `corners = 3`, or leave out `one_sided`: four corners share the weight then; in the plane `hold` has the ranges of what they carry at rest"
+            Self::OneSidedInExcess { in_space: true, .. } => {
+                Some("in `rests_on` write `corners = 3`, or leave out `one_sided`".to_owned())
+            }
+            Self::OneSidedInExcess { in_space: false, .. } => Some(
+                "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
                     .to_owned(),
             ),
             Self::LiftsWithoutInertia { .. } => Some(

@@ -47,7 +47,7 @@ pub(super) fn of_solutions(
     if state.0.space.is_some() {
         return Vec::new();
     }
-    let states = report.solutions.iter().chain(&report.preload_gap_states);
+    let states = report.taken().chain(&report.preload_gap_states);
     let forces = |solution: &Solution| solution.contacts.iter().map(|one| [one.normal_force; 2]).collect();
     let states: Vec<NormalForces> = states.map(forces).collect();
     let jams = report.status == Status::None && report.rejected.is_empty();

@@ -146,7 +146,9 @@ fn of_solve(outcome: Outcome) -> First {
     match outcome {
         One => Line(solved("drawer", &[]), "It moves: push needs 36.36 N (20 N without friction). "),
         Nothing => Line(solved("painleve-klein", &[("mu", "4")]), "It jams: friction locks it. "),
-        Several => Line(solved("klepp-2002", &[]), "3 solutions: from this state it can go on in 2 ways. "),
+        Several => {
+            Line(solved("klepp-2002", &[]), "It can go on in 2 ways, and what went before decides which. ")
+        }
         Undetermined => Line(
             solved(EQUAL_PLAY, &[]),
             "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value.",

@@ -5,7 +5,7 @@
 use slideway::limits::{LimitsOptions, Vary, limits};
 use slideway::map::{ClassMeaning, ColourBy, MapOptions, map};
 use slideway::motion::{self, SimulateOptions, simulate};
-use slideway::report::Style;
+use slideway::report::{Style, Verdict};
 use slideway::size::{SampleKind, SizeOptions, size};
 use slideway::sweep::{GridAxis, Rows, Sweep, SweepOptions};
 use slideway::{
@@ -267,4 +267,105 @@ fn a_drawer_that_sticks_in_its_play_is_wedged() {
 fn what_hangs_on_its_rail_is_not_behind_it() {
     let found = warnings(&hung(&[]));
     assert_eq!(found.sorted().len(), 0, "{found:?}");
+}
+
+/// A sled of mass m on two corners in front and one behind, all at b = 50 mm from its middle, pulled at the height h. Held at
+/// constant speed it tips forwards from mu = b/h on.
+const SLED: &str = r#"
+gravity = [0, 0, "-9.81 m/s^2"]
+[parameters]
+h = "150 mm"
+mu = 0.2
+[points]
+o = [0, 0]
+rope = ["50 mm", 0, "h"]
+S = [0, 0, "50 mm"]
+[bodies.sled]
+points = ["o", "rope", "S"]
+mass = "4 kg"
+centre_of_mass = "S"
+shape = { box = ["100 mm", "80 mm", "100 mm"] }
+[joints.bed]
+type = "block_slider"
+block = "sled"
+at = "o"
+along = 0
+length = "100 mm"
+mu = "mu"
+rests_on = { width = "60 mm", one_sided = true, corners = 3 }
+[coordinates.x]
+slide = "bed"
+rate = "100 mm/s"
+[drives.pull]
+coordinate = "x"
+force = { at = "sled.rope", direction = 0 }
+"#;
+
+fn sled(text: &str, settings: &[(&str, &str)]) -> Model {
+    let settings = settings.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value));
+    Model::parse(text).unwrap().with(&settings).unwrap()
+}
+
+/// With the height c = 50 mm of its centre, the rear corner alone down, and o at constant speed:
+/// `P - mu N = m a c`, `N - m g = -m a b`, `P (h - c) + mu N c + N b = I a`, so that
+/// `N (1 - m b (mu h + b)/(m c (h - c) - I)) = m g`: for h = 0.4 m it is held back by 14.014 N, and jams from mu = 2/3 on.
+#[test]
+fn a_sled_pulled_high_tips_and_then_jams_in_every_answer() {
+    let high = sled(SLED, &[("h", "400 mm")]);
+    let (m, c, b, h, mu) = (4.0, 0.05, 0.05, 0.4, 0.2);
+    let beyond: f64 = m * c * (h - c) - 4.0 * (0.01 + 0.01) / 12.0;
+    let force = m * 9.81 / (1.0 - m * b * (mu * h + b) / beyond);
+    let pull = mu * force - m * c * force * (mu * h + b) / beyond;
+    assert!((solve(&high).unwrap().solutions[0].drives[0].effort - pull).abs() < 1e-9, "{pull}");
+    let held = "moves as prescribed only if pull holds it back, with 14.01 N against the motion. ";
+    let jams = "It would jam from mu = 0.6667 (3.333 times this friction).";
+    let tips = "It tips: bed.front_left and bed.front_right lift off (from mu = 0.125 on). It ";
+    let answer = solve(&high).unwrap().answer();
+    assert!(answer.starts_with(&format!("{tips}{held}{jams}")), "{answer}");
+    let answer = drive(&high, &DriveOptions::default()).unwrap().answer();
+    assert!(answer.starts_with(&format!("It tips (bed); it {held}{jams}")), "{answer}");
+    let limited =
+        |model| limits(model, &LimitsOptions::new("mu=0.05..1.5".parse::<Vary>().unwrap())).unwrap();
+    let answer = limited(&high).answer();
+    assert!(answer.contains("0.125 to 0.666667: it tips. mu from 0.666667 to 1.5: it jams."), "{answer}");
+}
+
+/// Where the state that stands and the one that tips end together, at mu = b/h, nothing is left: it jams, whoever is asked.
+#[test]
+fn what_ends_with_the_state_that_tips_jams() {
+    let low = sled(SLED, &[]);
+    let jams = "It would jam from mu = 0.3333 (1.667 times this friction)";
+    for answer in [
+        solve(&low).unwrap().answer(),
+        drive(&low, &DriveOptions::default().vary("mu=0.05..1.5".parse::<Vary>().unwrap())).unwrap().answer(),
+    ] {
+        assert!(answer.contains(jams) && !answer.contains("it tips (bed) from"), "{answer}");
+        assert!(
+            answer
+                .starts_with("It can go on in 2 ways, and what went before decides which: pull needs 7.848")
+        );
+    }
+    let sized = size(&low, &SizeOptions::new("h".parse::<Vary>().unwrap(), 1.0)).unwrap();
+    assert!((sized.met[0].to - 0.25).abs() < 1e-9 && sized.tips.is_empty(), "{:?}", sized.tips);
+    let limited = limits(&low, &LimitsOptions::new("mu=0.05..1.5".parse::<Vary>().unwrap())).unwrap();
+    assert!(limited.answer().ends_with("mu from 0.333333 to 1.5: it jams."), "{}", limited.answer());
+}
+
+/// Sides of the guide that carry nothing, whichever side the block is on, are neither a boundary nor leave stability open.
+#[test]
+fn sides_that_carry_nothing_are_no_boundary() {
+    let slide = sled(&SLED.replace(", one_sided = true, corners = 3", ""), &[("h", "30 mm")]);
+    let report = solve(&slide).unwrap();
+    let [only] = report.solutions.as_slice() else { panic!("{}", report.answer()) };
+    assert!(only.on_boundary && only.contacts[0].normal_force == 0.0);
+    assert_eq!(only.attainability.verdict, Verdict::Attainable);
+    let text = report.text(Style::PLAIN);
+    assert!(!text.contains("boundary") && !text.contains("Stability"), "{text}");
+    // A push off its middle presses them, ever so little, and changes nothing else.
+    let aside = sled(
+        &SLED.replace(", one_sided = true, corners = 3", "").replace("0, \"h\"", "\"0.001 mm\", \"h\""),
+        &[("h", "30 mm")],
+    );
+    let other = solve(&aside).unwrap();
+    assert_eq!(other.solutions[0].attainability.verdict, Verdict::Attainable);
 }

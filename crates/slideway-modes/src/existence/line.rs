@@ -201,10 +201,16 @@ impl Line {
             let end = End { at: end.at.recip(), ..end.clone() };
             return self.reversed().limits(&end, 0.0);
         }
+        // What is zero within rounding is zero.
+        let at = |place: f64| {
+            let (solution, vanishes) = (self.solution(place)?, self.vanishes(place)?);
+            let value = |(&value, vanishes)| if vanishes { 0.0 } else { value };
+            Some(DVector::from_iterator(solution.len(), solution.iter().zip(vanishes).map(value)))
+        };
         if end.cause != Cause::Singular {
-            return Some(self.solution(end.at)?.iter().map(|&value| Limit::Finite(value)).collect());
+            return Some(at(end.at)?.iter().map(|&value| Limit::Finite(value)).collect());
         }
-        let near = |fraction: f64| self.solution(end.at + fraction * (other - end.at));
+        let near = |fraction: f64| at(end.at + fraction * (other - end.at));
         let (far, close) = (near(NEAR[0])?, near(NEAR[1])?);
         let limit = |(&far, &close): (&f64, &f64)| {
             let grows = close.abs() > GROWTH * far.abs();

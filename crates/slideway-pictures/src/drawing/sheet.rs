@@ -24,7 +24,7 @@ const PANEL: [f64; 2] = [440.0, 320.0];
 const CONTACTS: f64 = 4.0;
 /// Least width of a panel, for its caption.
 const LEAST_WIDTH: f64 = 290.0;
-/// Width that a row of panels does not exceed if it has several.
+/// Width that a row of panels of this size does not exceed if it has several.
 const ROW: f64 = 1300.0;
 /// Space between panels, and around the sheet.
 const SPACE: f64 = 30.0;
@@ -153,7 +153,7 @@ pub fn sheet(
     };
     let description = described(&lines, &panels);
     let (title, forces_on) = (title(mechanism), forces_on(mechanism));
-    Some(Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.sheet(description))
+    Some(Layout { view: &view, mechanism, panels, title, lines, forces_on }.sheet(description))
 }
 
 /// Of which answer the forces are drawn.
@@ -229,7 +229,7 @@ pub fn pieces(
         let drawn = Drawn { report, rest, longest_force, longest_held, ..by_itself };
         let panels = drawn.panels(Shown::All).unwrap_or_default();
         let (title, lines, forces_on) = (title(mechanism), Vec::new(), forces_on(mechanism));
-        Layout { view: &view, units: &mechanism.units, panels, title, lines, forces_on }.pieces(held, room)
+        Layout { view: &view, mechanism, panels, title, lines, forces_on }.pieces(held, room)
     };
     let mut room = held.map_or(1.0, |held| held.room);
     let mut narrowest = (f64::INFINITY, Vec::new());
@@ -303,7 +303,7 @@ fn described(lines: &[String], panels: &[Panel]) -> String {
 
 struct Layout<'a> {
     view: &'a View,
-    units: &'a Units,
+    mechanism: &'a Mechanism,
     panels: Vec<Panel>,
     title: String,
     lines: Vec<String>,
@@ -314,7 +314,7 @@ impl Layout<'_> {
     fn sheet(self, description: String) -> Sheet {
         let picture = self.picture();
         let panel_width = picture.size().x.max(LEAST_WIDTH);
-        let columns = columns(self.panels.len(), panel_width);
+        let columns = columns(self.panels.len(), panel_width, self.row());
         let row_width = columns as f64 * (panel_width + SPACE) - SPACE;
         let mut scene = Scene::default();
         let mut y = paragraph(&mut scene, &self.title, 20.0, Point::new(0.0, 0.0), row_width);
@@ -373,6 +373,11 @@ impl Layout<'_> {
         pieces
     }
 
+    /// Width that a row does not exceed if it has several panels: it grows as these do.
+    fn row(&self) -> f64 {
+        ROW * usual_room(self.mechanism)[0] / PANEL[0]
+    }
+
     /// The place that every picture has.
     fn picture(&self) -> Bounds {
         bounds_of(&self.panels)
@@ -383,7 +388,7 @@ impl Layout<'_> {
     fn panel(&self, scene: &mut Scene, panel: &Panel, picture: &Bounds, corner: Point) -> f64 {
         let width = picture.size().x.max(LEAST_WIDTH);
         let scale = panel.scale.unwrap_or(self.view.scale);
-        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / scale, &self.units.of("m"));
+        let length = nice(0.45 * picture.size().x.min(PANEL[0]) / scale, &self.mechanism.units.of("m"));
         let free = 0.5 * (width - picture.size().x);
         let by = corner + Point::new(free, 0.0) - picture.least;
         scene.elements.extend(panel.scene.clone().shifted(by).elements);
@@ -405,9 +410,9 @@ impl Layout<'_> {
         for line in dimensions::scale_bar(from, drawn) {
             scene.add(Class::Edge, Shape::Line(line));
         }
-        right = beside(scene, Point::new(right, corner.y), quantity(length, &self.units.of("m")));
+        right = beside(scene, Point::new(right, corner.y), quantity(length, &self.mechanism.units.of("m")));
         if let Some(scale) = panel.force_scale {
-            let unit = self.units.of("N");
+            let unit = self.mechanism.units.of("N");
             let force = nice(0.7 * LONGEST_FORCE / scale, &unit);
             let from = Point::new(right + 26.0, corner.y);
             let to = from + Point::new(force * scale, 0.0);
@@ -441,9 +446,9 @@ fn bounds_of(panels: &[Panel]) -> Option<Bounds> {
 }
 
 /// So many columns that rows are not too long, and about equally filled.
-fn columns(count: usize, width: f64) -> usize {
+fn columns(count: usize, width: f64, row: f64) -> usize {
     let mut columns = 1;
-    while columns < count && (columns + 1) as f64 * (width + SPACE) - SPACE <= ROW {
+    while columns < count && (columns + 1) as f64 * (width + SPACE) - SPACE <= row {
         columns += 1;
     }
     let rows = count.div_ceil(columns).max(1);

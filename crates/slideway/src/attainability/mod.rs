@@ -40,6 +40,8 @@ use spectrum::{Pencil, Spectrum, Stability};
 /// The most contacts for which eigenvalues are computed, and for which the fate beside a solution is.
 const MOST_CONTACTS: usize = 24;
 const MOST_CONTACTS_OF_FATES: usize = 10;
+/// The most contacts that nothing presses of which both sides are compared.
+const MOST_UNPRESSED: usize = 6;
 /// The most solutions among which fates are sought.
 const MOST_SOLUTIONS: usize = 32;
 /// Inertia of a motion without mass where its fate is sought, as a share of the greatest other.
@@ -297,6 +299,35 @@ impl<'p> ElasticGuides<'p> {
     pub(crate) fn of(&self, states: &[ContactState]) -> Attainability {
         let states = self.joints.closed(states);
         self.joints.of(mode_matrix(self.problem, &states), &states)
+    }
+
+    /// The attainability of a solution in which nothing presses some contacts, if the sides on which these are make no difference:
+    /// none if they do.
+    ///
+    /// Their friction follows the magnitude of their forces, so that the fast motion is linear on each side alone. If all sides
+    /// have the same eigenvalues, all principal minors of the response of these forces to that friction vanish: it never acts back on
+    /// them. They then move as without it, and the rest is a linear motion that they disturb from outside.
+    pub(crate) fn of_unpressed(&self, states: &[ContactState], unpressed: &[usize]) -> Option<Attainability> {
+        if let Err((verdict, reason)) = &self.joints.inertia {
+            return Some(Attainability::without_eigenvalues(*verdict, reason));
+        }
+        if unpressed.len() > MOST_UNPRESSED {
+            return None;
+        }
+        let on = |sides: usize| {
+            let mut states = states.to_vec();
+            for (index, &contact) in unpressed.iter().enumerate() {
+                let is_other = sides >> index & 1 == 1;
+                states[contact] = if is_other { ContactState::Negative } else { ContactState::Positive };
+            }
+            let states = self.joints.closed(&states);
+            let (_, spectrum, attainability) =
+                self.joints.examined(mode_matrix(self.problem, &states), &states).ok()?;
+            Some((spectrum, attainability.verdict))
+        };
+        let (first, verdict) = on(0)?;
+        let same = |sides| on(sides).is_some_and(|(other, told)| told == verdict && other.is_like(&first));
+        (1..1 << unpressed.len()).all(same).then(|| self.of(states))
     }
 
     /// What each unattainable solution separates.

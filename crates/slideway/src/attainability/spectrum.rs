@@ -89,6 +89,20 @@ pub(super) struct Spectrum {
     pub(super) stability: Stability,
 }
 
+impl Spectrum {
+    /// Whether both have the same eigenvalues within rounding.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let greatest = self.finite.iter().map(|lambda| lambda.norm()).fold(0.0, f64::max);
+        let has = |all: &[Complex<f64>], one: &Complex<f64>| {
+            all.iter().any(|other| (one - other).norm() <= REAL * greatest)
+        };
+        self.finite.len() == other.finite.len()
+            && self.negative == other.negative
+            && self.finite.iter().all(|one| has(&other.finite, one))
+            && other.finite.iter().all(|one| has(&self.finite, one))
+    }
+}
+
 /// One mode with its factors, for any stiffnesses and ratios of vanishing masses.
 pub(super) struct Pencil<'i> {
     inertia: &'i Inertia,

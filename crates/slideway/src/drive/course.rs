@@ -13,7 +13,7 @@ use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Status, Verdict, joints_in_words};
 use crate::scan::{bisect_until, evenly};
-use crate::solve::{Stages, pattern, tips_at_end};
+use crate::solve::{Ends, Stages, ends_above, ends_below, pattern, tips_beyond, upright};
 use std::ops::ControlFlow;
 
 /// Places nearer to zero than this share of the range are zero.
@@ -80,15 +80,18 @@ pub(super) fn direction(
     ))
 }
 
-/// Where modes end since joints tip.
+/// Where modes end beyond which joints tip.
 fn tips(found: &ModesFound, mechanism: &Mechanism, [from, to]: [f64; 2]) -> Vec<TipsAt> {
-    let ends =
-        found.existence.modes.iter().flat_map(|mode| [(mode, &mode.from, false), (mode, &mode.to, true)]);
-    let tips = ends.filter(|(_, end, _)| from < end.at && end.at < to).map(|(mode, end, above)| TipsAt {
-        at: found.same_ends.told(end.at),
-        above,
-        joints: tips_at_end(mechanism, (&mode.pattern, end)),
-    });
+    let ways: [(bool, Ends, f64); 2] = [(false, ends_below, -1.0), (true, ends_above, 1.0)];
+    let of = |mode| {
+        ways.map(|(above, ends, way)| {
+            let end = ends(mode)[1];
+            let joints = tips_beyond((&found.existence, mechanism), (end.at, &end.cause), ends, way);
+            TipsAt { at: found.same_ends.told(end.at), above, joints }
+        })
+    };
+    let tips = upright(&found.existence, mechanism).flat_map(of);
+    let tips = tips.filter(|one| from < one.at && one.at < to);
     let mut tips: Vec<TipsAt> = tips.filter(|one| !one.joints.is_empty()).collect();
     tips.sort_by(|one, other| one.at.total_cmp(&other.at));
     tips.dedup();

@@ -2,9 +2,9 @@
 
 use super::report::{Efficiency, EfficiencyKind};
 use crate::fault::Faults;
-use crate::kinetics::effort_forces;
+use crate::kinetics::velocity_of_effort;
 use crate::limits::Varied;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Drive, Mechanism};
 use crate::modes::ContactState;
 use crate::modes::existence::{EndCause, ExistenceOptions, ModeProblemLine, TooManyModes};
 use crate::solve::Stages;
@@ -100,19 +100,11 @@ impl Efforts {
     }
 }
 
-/// The velocity at which a unit effort of each drive works: force times velocity of its point, against its
-/// reaction.
+/// The velocity at which a unit effort of each drive works.
 pub(super) fn velocities(stages: &Stages) -> Vec<f64> {
-    let configuration = &stages.configuration;
-    let work = |drive: &crate::mechanism::Drive| {
-        let wrenches = effort_forces(&stages.mechanism, configuration, &drive.effort);
-        let one = |wrench: crate::kinetics::Wrench| {
-            wrench.force.dot(&configuration.velocity_at(wrench.frame, wrench.place))
-                + wrench.couple * configuration.angular_velocity(wrench.frame)
-        };
-        wrenches.map(one).sum::<f64>() + 0.0
-    };
-    stages.mechanism.drives.iter().map(work).collect()
+    let Stages { mechanism, configuration, .. } = stages;
+    let of = |drive: &Drive| velocity_of_effort(mechanism, configuration, &drive.effort);
+    mechanism.drives.iter().map(of).collect()
 }
 
 /// P = sum_i u_i w_i

@@ -4,7 +4,7 @@ use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
     EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
-use crate::report::effort::{self, least_friction, times, times_friction, unsettled};
+use crate::report::effort::{self, WHICH_WAY, least_friction, times, times_friction, unsettled};
 use crate::report::{
     JointMode, OnFace, SHOWN_BY, Status, Verdict, capital, it_tips, it_would_tip, spaced, with_less,
 };
@@ -115,10 +115,15 @@ fn needs(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> 
 /// "it tips (shoes); push needs 206.6 N (0 N without friction)."
 fn settled(report: &DriveReport, direction: &DriveDirection, only: &DriveSolution) -> String {
     let needs = needs_one(report, direction, only);
-    let tips = |joint: &&JointMode| joint.face == Some(OnFace::Tips);
-    let tips: Vec<String> = only.joints.iter().filter(tips).map(|joint| joint.name.clone()).collect();
+    let tips = tips(only);
     let needs = if tips.is_empty() { needs } else { format!("{}; {needs}", it_tips(&tips)) };
     format!("{needs}.{}{}", lifts(only), unsettled(only.attainability))
+}
+
+/// The joints that tip in a state.
+fn tips(state: &DriveSolution) -> Vec<String> {
+    let tips = state.joints.iter().filter(|joint| joint.face == Some(OnFace::Tips));
+    tips.map(|joint: &JointMode| joint.name.clone()).collect()
 }
 
 /// "it jams: no force moves it.", "it tips (bed), which only a block slider can show."
@@ -148,6 +153,10 @@ fn needs_one(report: &DriveReport, direction: &DriveDirection, only: &DriveSolut
     let is_idle = only.efficiency.is == EfficiencyKind::NoPower && may_be_idle;
     let one = |(drive, (with, without)): (&DriveName, (&f64, &f64))| {
         let unit = report.units.of(drive.unit);
+        // The power of one drive has the sign of its effort; where the loads push nobody wonders.
+        if lifts_off && report.drives.len() == 1 && only.power < 0.0 && with * without <= 0.0 {
+            return effort::held_back(&drive.name, &unit.brief(with.abs()));
+        }
         let with = unit.brief(*with);
         // One drive that does no work without friction has no effort then.
         if is_idle {
@@ -189,15 +198,16 @@ fn lifts(only: &DriveSolution) -> String {
 fn needs_several(report: &DriveReport, direction: &DriveDirection) -> String {
     let states = &direction.solutions;
     let ([drive], 0..=TOLD) = (report.drives.as_slice(), states.len()) else {
-        return format!("{} states are possible, each with its own efforts.", states.len());
+        return format!("it can go on in {} ways, each with its own efforts.", states.len());
     };
     let unit = report.units.of(drive.unit);
     let efforts = |states: &[&DriveSolution], between: &str| {
         let note = |state: &DriveSolution| match state.attainability {
-            Verdict::Flutter => " (it may vibrate)",
-            _ => "",
+            _ if !tips(state).is_empty() && states.len() > 1 => format!(" where {}", it_tips(&tips(state))),
+            Verdict::Flutter => " (it may vibrate)".to_owned(),
+            _ => String::new(),
         };
-        let one = |state: &&DriveSolution| unit.brief(state.efforts[0]) + note(state);
+        let one = |state: &&DriveSolution| unit.brief(state.efforts[0]) + &note(state);
         states.iter().map(one).collect::<Vec<_>>().join(between)
     };
     let (unstable, stable): (Vec<_>, Vec<_>) =
@@ -210,7 +220,11 @@ fn needs_several(report: &DriveReport, direction: &DriveDirection) -> String {
         [only] => settled(report, direction, only),
         several => {
             let efforts = efforts(several, ", or ");
-            format!("{} states are possible: {} needs {efforts}.", several.len(), drive.name)
+            format!(
+                "it can go on in {} ways, and {WHICH_WAY}: {} needs {efforts}.",
+                several.len(),
+                drive.name
+            )
         }
     };
     match unstable.as_slice() {
@@ -250,8 +264,9 @@ fn tipping(direction: &DriveDirection) -> Option<String> {
 /// When other states appear or it would jam, or that it never does; nothing where that is not known.
 fn outlook(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Vec<String> {
     let at = |factor: f64| times_friction(factor, direction.mu.map(|mu| factor * mu));
-    let others =
-        direction.another_count.map(|changes| format!("from {} other states are possible", at(changes)));
+    let others = direction.another_count.map(|changes| {
+        format!("from {} it may also move otherwise: `solve` with that friction shows how", at(changes))
+    });
     match jam(report, direction, is_advised) {
         Some(never) if direction.never_jams => {
             vec![never + &others.map_or_else(String::new, |others| format!(", but {others}")) + "."]

@@ -144,6 +144,23 @@ pub fn load_wrenches<T: Real>(
     Ok(wrenches)
 }
 
+impl Wrench {
+    /// Its power (W).
+    pub(crate) fn power(&self, configuration: &Configuration) -> f64 {
+        let velocity = configuration.velocity_at(self.frame, self.place);
+        self.force.dot(&velocity) + self.couple * configuration.angular_velocity(self.frame)
+    }
+}
+
+/// The velocity at which a unit effort of a drive works: force times velocity of its point, against its reaction.
+pub(crate) fn velocity_of_effort(
+    mechanism: &Mechanism,
+    configuration: &Configuration,
+    effort: &Effort,
+) -> f64 {
+    unit_effort(mechanism, configuration, effort).map(|wrench| wrench.power(configuration)).sum::<f64>() + 0.0
+}
+
 /// A unit effort of a drive and its reaction.
 pub(crate) fn unit_effort<T: Real>(
     mechanism: &Mechanism<T>,

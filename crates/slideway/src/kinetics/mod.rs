@@ -31,7 +31,7 @@ mod system;
 
 pub(crate) use elastic::MasslessMotions;
 pub(crate) use influences::{Accuracy, Elimination, Influences};
-pub(crate) use loads::{Applied, unit_effort as effort_forces};
+pub(crate) use loads::{Applied, unit_effort as effort_forces, velocity_of_effort};
 pub use loads::{Wrench, load_wrenches};
 pub(crate) use rows::{ConstraintRow, coordinates as coordinate_rows, sliding as sliding_row};
 

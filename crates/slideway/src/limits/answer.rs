@@ -105,8 +105,11 @@ impl Naming {
         };
         let closed = |k: usize| self.mechanism.is_closed(&mode.pattern, k);
         let [from, to] = [&mode.from, &mode.to].map(|end| self.reactions(&mode.pattern, end));
-        // A block that floats within its play has no side, whichever pattern tells of it.
+        // A block that floats within its play has no side, whichever pattern tells of it. What lifts off carries nothing, either.
         let floats = |k: usize| {
+            if closed(k) == Some(false) {
+                return false;
+            }
             let is_unloaded = |forces: &Vec<Limit>| forces.get(k) == Some(&Limit::Finite(0.0));
             let changes_side =
                 |end: &ModeEnd| matches!(&end.cause, EndCause::SideChange(at) if at.contains(&k));

@@ -3,6 +3,7 @@
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
+use crate::modes::existence::is_same_end;
 use crate::report::{HOLDS, ModeEndCause, OnFace};
 use crate::units::number::counted;
 
@@ -257,9 +258,11 @@ fn by_tipping(whole: Piece, modes: &[ModeLimits]) -> Vec<Piece> {
     let ends = |mode: &ModeLimits| [mode.from.unwrap_or(f64::NEG_INFINITY), mode.to.unwrap_or(f64::INFINITY)];
     let mut cuts: Vec<f64> =
         modes.iter().flat_map(ends).filter(|at| whole.from < *at && *at < whole.to).collect();
-    cuts.extend([whole.from, whole.to]);
     cuts.sort_by(f64::total_cmp);
-    cuts.dedup();
+    cuts.retain(|at| !is_same_end(*at, whole.from) && !is_same_end(whole.to, *at));
+    cuts.dedup_by(|next, kept| is_same_end(*next, *kept));
+    cuts.insert(0, whole.from);
+    cuts.push(whole.to);
     let piece = |pair: &[f64]| {
         let middle = f64::midpoint(pair[0], pair[1]);
         let here = |mode: &&ModeLimits| {

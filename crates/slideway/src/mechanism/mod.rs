@@ -790,7 +790,12 @@ impl Mechanism {
 
     /// Whether some joint slides on a round rod.
     pub(crate) fn has_ends(&self) -> bool {
-        self.friction_circles.iter().any(|circle| circle.end.is_some())
+        self.ends().next().is_some()
+    }
+
+    /// The contacts that are parts of ends of blocks on round rods.
+    pub(crate) fn ends(&self) -> impl Iterator<Item = ContactId> + '_ {
+        self.friction_circles.iter().flat_map(|circle| circle.end).flatten()
     }
 
     /// Whether a joint slides on a round rod.

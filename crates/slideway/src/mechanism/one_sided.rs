@@ -64,22 +64,9 @@ impl<T: Real> Mechanism<T> {
 
     /// The joints that tip in a state of the mode problem: some of their corners have left their face, others stay there.
     pub(crate) fn tipped(&self, states: &[ContactState]) -> Vec<String> {
-        self.keeping_a_corner(states, |_| false)
-    }
-
-    /// The joints that tip once these contacts lift off from a state.
-    pub(crate) fn tipped_by(&self, states: &[ContactState], lifting: &[usize]) -> Vec<String> {
-        let keep = self.keeping_a_corner(states, |k| lifting.contains(&k));
-        let tips_already = self.tipped(states);
-        keep.into_iter().filter(|joint| !tips_already.contains(joint)).collect()
-    }
-
-    /// The joints some of whose corners are open in a state, or these, while others are closed.
-    fn keeping_a_corner(&self, states: &[ContactState], opens: impl Fn(usize) -> bool) -> Vec<String> {
         let tips = |(joint, slider): (JointId, &Slider<T>)| {
             let corners = slider.contacts.iter().map(|contact| contact.index());
-            let is_closed = |k: usize| Some(self.is_closed(states, k)? && !opens(k));
-            let closed: Vec<bool> = corners.filter_map(is_closed).collect();
+            let closed: Vec<bool> = corners.filter_map(|k| self.is_closed(states, k)).collect();
             let tips = closed.contains(&true) && closed.contains(&false);
             tips.then(|| self.joints[joint.index()].name.to_string())
         };
@@ -186,7 +173,8 @@ impl<T: Real> Mechanism<T> {
     pub(crate) fn check_one_sided_in_excess(&self) -> Result<(), Faults> {
         let shares: Vec<ContactId> =
             self.one_sided().filter(|contact| self.excess.shares(*contact)).collect();
-        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts })
+        let in_space = self.space.is_some();
+        self.refuse(&shares, |contacts| FaultKind::OneSidedInExcess { contacts, in_space })
     }
 
     /// Refuses contacts that may lift off, for what is not known of them.

@@ -8,7 +8,7 @@ use super::excess::{Row, rank};
 use super::{Body, Joint, JointKind, Mechanism, Slider, rot90};
 use crate::dense::singular_values;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::Frame;
+use crate::ids::{ContactId, Frame};
 use crate::interval::Real;
 use nalgebra::{DMatrix, Vector2};
 
@@ -90,15 +90,19 @@ impl Mechanism {
         self.bodies.iter().zip(known).find_map(|(body, is_known)| (!is_known).then_some(&*body.name))
     }
 
-    /// Refuses a question about a model that has something out of the plane, for what is answered in the plane alone.
+    /// Refuses a question about these contacts, which is answered in the plane alone.
     ///
     /// # Errors
-    /// A fault that says what is asked.
-    pub(crate) fn check_planar(&self, question: &'static str) -> Result<(), Faults> {
-        match self.space {
-            None => Ok(()),
-            Some(_) => Err(Fault::general(FaultKind::InSpace { question }).into()),
-        }
+    /// A fault at the joint of the first of them that says what is asked, if the model has something out of the plane.
+    pub(crate) fn check_planar(
+        &self,
+        question: &'static str,
+        contacts: impl IntoIterator<Item = ContactId>,
+    ) -> Result<(), Faults> {
+        let first = self.space.as_ref().and_then(|_| contacts.into_iter().next());
+        let Some(first) = first else { return Ok(()) };
+        let place = self.joints[self.contacts[first.index()].joint.index()].place.clone();
+        Err(Fault::new(FaultKind::InSpace { question }, place).into())
     }
 
     /// Refuses joints that are not known in space, and motions out of the plane that nothing prevents.

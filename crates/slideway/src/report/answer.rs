@@ -2,8 +2,8 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, OnFace, Solution, SolveReport,
-    SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
+    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, ModeEndCause, OnFace, Solution,
+    SolveReport, SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
 };
 use crate::units::brief;
 
@@ -43,7 +43,7 @@ impl SolveReport {
                 Some(tipping) => format!("No answer: {}.", tipping.in_words()),
                 None => format!("It jams: {}.", self.nothing_moves_it()),
             },
-            Status::One => format!("{}{}", self.moves_in_words(), self.unsettled()),
+            Status::One => self.solutions.first().map_or_else(String::new, |only| self.moves_in_words(only)) + self.unsettled(),
             Status::Several => self.ways_in_words(),
             Status::Continuum => self.open_in_words(),
             Status::PreloadGap => self.gap_in_words(),
@@ -233,20 +233,28 @@ impl SolveReport {
     }
 
     /// "It moves: push needs 36.36 N (20 N without friction)."
-    fn moves_in_words(&self) -> String {
-        let [solution] = self.solutions.as_slice() else { return String::new() };
-        if solution.joints.iter().any(|joint| joint.face == Some(OnFace::Tips)) {
+    fn moves_in_words(&self, solution: &Solution) -> String {
+        if tips(solution) {
             return self.tips_in_words(solution);
         }
         let lifts = lifting(solution).map_or_else(|| ".".to_owned(), |lifts| format!(". {lifts}."));
-        if !solution.drives.is_empty() {
-            return format!("It moves: {}{lifts}", self.needs(solution).join(", "));
+        let moves = self.does_in_words(solution);
+        match self.changes(solution).as_slice() {
+            _ if moves.starts_with("it ") => capital(&moves) + &lifts,
+            [] if moves.is_empty() => format!("It has one solution{lifts}"),
+            _ => format!("It moves: {moves}{lifts}"),
         }
-        let changes: Vec<String> = self.changes(solution);
-        match changes.as_slice() {
-            [] => format!("It has one solution{lifts}"),
-            [change] => format!("It {change}{lifts}"),
-            changes => format!("It moves: {}{lifts}", changes.join(", ")),
+    }
+
+    /// What its drives need, or else what becomes of its speeds: "push needs 36.36 N (20 N without friction)", "it slows down at
+    /// 17.3 m/s^2". Empty where there is nothing to say.
+    fn does_in_words(&self, solution: &Solution) -> String {
+        if !solution.drives.is_empty() {
+            return self.needs(solution).join(", ");
+        }
+        match self.changes(solution).as_slice() {
+            [change] => format!("it {change}"),
+            changes => changes.join(", "),
         }
     }
 
@@ -261,11 +269,10 @@ impl SolveReport {
             (Some(from), Some(to)) => format!(" (from {} to {})", at(from, mu), at(to, mu)),
             (None, None) => String::new(),
         });
-        let rest = match (self.needs(solution), self.changes(solution).as_slice()) {
-            (needs, _) if !needs.is_empty() => format!(" {}.", needs.join(", ")),
-            (_, []) => String::new(),
-            (_, [change]) => format!(" It {change}."),
-            (_, changes) => format!(" {}.", changes.join(", ")),
+        let rest = match self.does_in_words(solution) {
+            rest if rest.is_empty() => rest,
+            rest if rest.starts_with("it ") => format!(" {}", sentence(&rest)),
+            rest => format!(" {rest}."),
         };
         format!("It tips{what}{range}.{rest}")
     }
@@ -280,9 +287,13 @@ impl SolveReport {
 
     /// "push needs 36.36 N (20 N without friction)", for each drive.
     fn needs(&self, solution: &Solution) -> Vec<String> {
-        let lifts_off = solution.contacts.iter().any(|contact| contact.gap_acceleration.is_some());
+        let lifts_off = lifting(solution).is_some();
         let one = |(drive, without): (&Drive, &Drive)| {
             let unit = self.model.units.of(drive.unit);
+            // Where the loads push nobody wonders.
+            if lifts_off && drive.holds_back && drive.effort * without.effort <= 0.0 {
+                return effort::held_back(&drive.name, &unit.brief(drive.effort.abs()));
+            }
             let without = unit.brief(without.effort);
             effort::needs(&drive.name, &unit.brief(drive.effort), &without, lifts_off)
         };
@@ -324,40 +335,65 @@ impl SolveReport {
     }
 
     /// The solutions that it can take: those that are not unstable, or all if none is left.
-    pub(super) fn taken(&self) -> impl Iterator<Item = &Solution> {
+    pub(crate) fn taken(&self) -> impl Iterator<Item = &Solution> {
         let is_stable = |solution: &Solution| solution.attainability.verdict != Verdict::Unattainable;
         let any = self.solutions.iter().any(is_stable);
         self.solutions.iter().filter(move |solution| !any || is_stable(solution))
     }
 
-    /// "It can move in 3 ways: push needs 36.36, 41 or 52 N."
+    /// "It can go on in 2 ways, and what went before decides which: push needs 36.36 or 52 N. In solution 2 it tips.", "It moves:
+    /// push needs 36.36 N. Another solution is unstable: a real mechanism leaves it."
     fn ways_in_words(&self) -> String {
-        let is_unstable = |solution: &&Solution| solution.attainability.verdict == Verdict::Unattainable;
-        let unstable = self.solutions.iter().filter(is_unstable).count();
-        let (ways, leaves) = match (self.solutions.len() - unstable, unstable) {
-            (0, _) => (format!("{} ways", self.count), " All of these states are unstable."),
-            (_, 0) => (format!("{} ways", self.count), ""),
-            (1, 1) => ("one way".to_owned(), " The other state is unstable."),
-            (1, _) => ("one way".to_owned(), " The other states are unstable."),
-            (ways, 1) => (format!("{ways} ways"), " The other state is unstable."),
-            (ways, _) => (format!("{ways} ways"), " The other states are unstable."),
+        let is_stable = |solution: &&Solution| solution.attainability.verdict != Verdict::Unattainable;
+        let stable: Vec<&Solution> = self.solutions.iter().filter(is_stable).collect();
+        let unstable = match self.solutions.len() - stable.len() {
+            0 => String::new(),
+            1 => " Another solution is unstable: a real mechanism leaves it.".to_owned(),
+            several => format!(" {several} other solutions are unstable: a real mechanism leaves them."),
         };
-        let several = format!("{} solutions: from this state it can go on in {ways}", self.count);
-        let efforts = |drive: &Drive| {
-            let unit = self.model.units.of(drive.unit);
-            let of =
-                |solution: &Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
-            let mut efforts: Vec<String> = self.taken().filter_map(of).collect();
-            let last = efforts.pop()?;
-            let list = if efforts.is_empty() { last } else { format!("{} or {last}", efforts.join(", ")) };
-            Some(format!("; {} needs {}", drive.name, unit.with(&list)))
-        };
-        let is_short = self.solutions.len() <= 4 && self.solutions.len().to_string() == self.count;
-        let efforts = match self.influence.drives.as_slice() {
-            [drive] if is_short => efforts(drive).unwrap_or_default(),
+        match stable.as_slice() {
+            [] => format!(
+                "It has {} solutions, and all are unstable: a real mechanism leaves them.",
+                self.count
+            ),
+            [only] if self.is_listed() => self.moves_in_words(only) + &unstable,
+            several => {
+                let ways = if self.is_listed() { several.len().to_string() } else { self.count.clone() };
+                let (efforts, tips) = (self.efforts_of(several), self.tipping_of(several));
+                format!("It can go on in {ways} ways, and {}{efforts}.{tips}{unstable}", effort::WHICH_WAY)
+            }
+        }
+    }
+
+    /// Whether the list has all solutions.
+    fn is_listed(&self) -> bool {
+        self.solutions.len().to_string() == self.count
+    }
+
+    /// ": push needs 36.36 or 52 N", of one drive and a few solutions.
+    fn efforts_of(&self, solutions: &[&Solution]) -> String {
+        let [drive] = self.influence.drives.as_slice() else { return String::new() };
+        let unit = self.model.units.of(drive.unit);
+        let of = |solution: &&Solution| solution.drives.first().map(|drive| unit.brief_number(drive.effort));
+        let efforts: Vec<String> = solutions.iter().filter_map(of).collect();
+        match efforts.as_slice() {
+            [first @ .., last] if solutions.len() <= 4 && self.is_listed() && !first.is_empty() => {
+                format!(": {} needs {}", drive.name, unit.with(&format!("{} or {last}", first.join(", "))))
+            }
             _ => String::new(),
-        };
-        format!("{several}{efforts}.{leaves}")
+        }
+    }
+
+    /// " In solution 2 it tips.", where it does not in all.
+    fn tipping_of(&self, solutions: &[&Solution]) -> String {
+        let numbers = self.solutions.iter().enumerate().filter(|(_, solution)| tips(solution));
+        let numbers: Vec<String> = numbers.map(|(index, _)| (index + 1).to_string()).collect();
+        match numbers.as_slice() {
+            [] => String::new(),
+            all if all.len() == solutions.len() => " It tips in each.".to_owned(),
+            [only] => format!(" In solution {only} it tips."),
+            several => format!(" In solutions {} it tips.", several.join(", ")),
+        }
     }
 
     /// "How left, right share the load is undetermined: belt 25 to 50 N. Give `stiffness` for one value."
@@ -413,7 +449,20 @@ impl SolveReport {
         })
     }
 
+    /// The factor on all friction from which it jams: of margins, or where its only contact mode ends so.
+    pub(crate) fn jams_from(&self) -> Option<f64> {
+        let of_mode = || {
+            let [only] = self.solutions.as_slice() else { return None };
+            let margin = only.margin.as_ref()?;
+            margin.factor.filter(|_| margin.ends_with == ModeEndCause::Locking)
+        };
+        self.margins.as_ref().map_or_else(of_mode, |margins| margins.no_solution)
+    }
+
     fn without_margins(&self) -> Vec<String> {
+        if let Some(factor) = self.jams_from() {
+            return vec![format!("It would jam from {}.", times(factor))];
+        }
         let least =
             self.unique_at_least.map(|factor| safe_up_to("any load", &format!("at least {}", times(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
@@ -456,6 +505,11 @@ fn safe_up_to(any: &str, times: &str) -> String {
 /// A clause as a sentence.
 fn sentence(clause: &str) -> String {
     capital(clause) + "."
+}
+
+/// Whether a block tips in a solution.
+fn tips(solution: &Solution) -> bool {
+    solution.joints.iter().any(|joint| joint.face == Some(OnFace::Tips))
 }
 
 /// The contacts that lift off in a solution: "tip lifts off"; none where none does.

@@ -15,6 +15,15 @@ pub(crate) fn needs(drive: &str, effort: &str, without_friction: &str, lifts_off
     }
 }
 
+/// Of a drive that would have to act against the motion where something lifts off: "it moves as prescribed only if pull holds it
+/// back, with 14.01 N against the motion".
+pub(crate) fn held_back(drive: &str, effort: &str) -> String {
+    format!("it moves as prescribed only if {drive} holds it back, with {effort} against the motion")
+}
+
+/// What several ways to go on leave open.
+pub(crate) const WHICH_WAY: &str = "what went before decides which";
+
 /// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222
 /// times this friction)".
 pub(crate) fn times_friction(factor: f64, mu: Option<f64>) -> String {

@@ -934,6 +934,9 @@ pub struct Drive {
     pub unit: &'static str,
     /// The force or torque that produces the prescribed motion.
     pub effort: f64,
+    /// True if it acts against the motion.
+    #[serde(skip)]
+    pub(crate) holds_back: bool,
 }
 
 /// Infinitely many solutions of one mode: all convex combinations of the vertices plus all non-negative

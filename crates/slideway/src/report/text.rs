@@ -241,7 +241,9 @@ impl Text<'_> {
         }
         let guided_in_gap = are(contacts.iter().filter(|contact| is_guided_in_gap(contact)));
         if solution.on_boundary {
-            if let Some(are) = about_to_change {
+            // Where stability is known both sides of a contact that nothing presses are one.
+            let is_one = solution.attainability.verdict != Verdict::NotComputed && !self.is_verbose();
+            if let Some(are) = about_to_change.filter(|_| !is_one) {
                 self.line(&format!("  At a boundary: {are} not pressed by anything."));
             }
             if let Some(are) = guided_in_gap {

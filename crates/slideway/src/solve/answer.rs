@@ -17,7 +17,7 @@ use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, Frame, JointId};
 use crate::influence::{ContactFriction, Influence};
 use crate::interval::Interval;
-use crate::kinetics::{KineticEquations, Opening, Reaction, gap_acceleration};
+use crate::kinetics::{KineticEquations, Opening, Reaction, gap_acceleration, velocity_of_effort};
 use crate::law::tips;
 use crate::mechanism::{FrictionCircle, JointKind, Mechanism, Slider};
 use crate::model::SliderKind;
@@ -643,6 +643,7 @@ impl<'a> Answer<'a> {
             name: drive.name.to_string(),
             unit: drive.effort.unit(),
             effort,
+            holds_back: effort * velocity_of_effort(self.mechanism, self.configuration, &drive.effort) < 0.0,
         };
         self.mechanism.drives.iter().zip(self.influence.efforts(unknowns)).map(one).collect()
     }

@@ -9,7 +9,7 @@ use super::state::states;
 use crate::attainability::{Candidate, ElasticGuides, ElasticJoints};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::JointId;
+use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::KineticEquations;
 use crate::mechanism::Mechanism;
@@ -176,11 +176,6 @@ impl Answer<'_> {
                 not_computed("the block floats within its play")
             };
         }
-        let is_on_boundary = |solution: &Solution| is_on_boundary(self.mechanism, solution);
-        let may_open = self.mechanism.has_one_sided();
-        if solutions.iter().all(is_on_boundary) && self.shared.is_none() && !may_open {
-            return Ok(());
-        }
         let mut groups: BTreeMap<Vec<usize>, Vec<usize>> = BTreeMap::new();
         for (index, solution) in solutions.iter().enumerate() {
             groups
@@ -240,7 +235,28 @@ impl Answer<'_> {
             });
             solutions[index].attainability = attainability;
         }
+        for &index in members.iter().filter(|index| !inside.contains(index)) {
+            let solution = &solutions[index];
+            let Some(unpressed) = self.unpressed(solution, &closed.left.kept) else { continue };
+            let states = closed.left.states(&states(&solution.pattern));
+            if let Some(attainability) = guides.of_unpressed(&states, &unpressed) {
+                solutions[index].attainability = attainability;
+            }
+        }
         Ok(())
+    }
+
+    /// The contacts among these that nothing presses, where these alone are why a solution belongs to several modes: both sides of
+    /// each are the same state.
+    fn unpressed(&self, solution: &Solution, kept: &[usize]) -> Option<Vec<usize>> {
+        let is_plain =
+            |k: usize| !self.mechanism.contacts[k].opens && !self.mechanism.excess.shares(ContactId(k));
+        let contacts: Vec<usize> = unloaded(solution).collect();
+        let are_all = solution.floating.is_empty() && solution.determinant != 0.0 && !contacts.is_empty();
+        if !are_all || !contacts.iter().all(|&k| is_plain(k)) {
+            return None;
+        }
+        contacts.into_iter().map(|k| kept.iter().position(|&other| other == k)).collect()
     }
 }
 

@@ -19,6 +19,9 @@ use crate::sharing::{check_assembly, shared_load, stress_force};
 use nalgebra::{DMatrix, DVector};
 use std::ops::{ControlFlow, Range};
 
+/// What is asked of contacts that stand still.
+const STANDING: &str = "the friction of contacts that stand still";
+
 /// Velocities of sliding and turning below this multiple of the greatest velocity count as zero.
 pub(super) const AT_REST: f64 = 1e-12;
 
@@ -53,7 +56,7 @@ impl Sliding {
             return Ok(Self { signs, standing: still });
         }
         if may_lift_off(mechanism, &still) {
-            mechanism.check_planar("the friction of contacts that stand still")?;
+            mechanism.check_planar(STANDING, still.iter().copied())?;
             return Ok(Self { signs, standing: still });
         }
         let joints: Vec<JointId> = still.iter().map(|id| mechanism.contacts[id.index()].joint).collect();
@@ -62,9 +65,7 @@ impl Sliding {
         let stays = |id: &ContactId| staying.contains(&mechanism.contacts[id.index()].joint);
         let (standing, undefined): (Vec<ContactId>, Vec<ContactId>) = still.into_iter().partition(stays);
         let Some(first) = undefined.first() else {
-            if !standing.is_empty() {
-                mechanism.check_planar("the friction of contacts that stand still")?;
-            }
+            mechanism.check_planar(STANDING, standing.iter().copied())?;
             return Ok(Self { signs, standing });
         };
         let first_slides =

@@ -2,7 +2,6 @@
 
 use super::margins::{FALLING, GROWING};
 use crate::mechanism::Mechanism;
-use crate::modes::ContactState;
 use crate::modes::existence::{EndCause, Existence, ModeEnd, ModeInterval, is_same_end};
 
 /// How far friction may change before something tips or it jams: a block that may lift off keeps all of its corners on its
@@ -19,32 +18,21 @@ pub(crate) struct Upright {
 impl Upright {
     /// With more friction than in the model; none if no such mode exists now.
     pub(crate) fn of(existence: &Existence, mechanism: &Mechanism) -> Option<Self> {
-        Self::towards(existence, mechanism, |mode| [&mode.from, &mode.to], 1.0)
+        Self::towards(existence, mechanism, ends_above, 1.0)
     }
 
     /// With less, down to none, where there is such a mode now; none if nothing happens.
     pub(crate) fn below(existence: &Existence, mechanism: &Mechanism) -> Option<Self> {
-        let at_once = Self { until: FALLING[1], tips: Vec::new() };
-        let below = Self::towards(existence, mechanism, |mode| [&mode.to, &mode.from], -1.0);
-        let mut below = below.or(Some(at_once)).filter(|upright| upright.until > FALLING[0])?;
-        if below.tips.is_empty() {
-            // It ends without a corner that lifts off: what tips in the modes that are left.
-            let left = existence.modes.iter().filter(|mode| {
-                let [from, to] = [mode.from.at, mode.to.at];
-                from < below.until && (to >= below.until || is_same_end(below.until, to))
-            });
-            below.tips = distinct(left.flat_map(|mode| mechanism.tipped(&mode.pattern)).collect());
-        }
-        Some(below)
+        let at_once = Self {
+            until: FALLING[1],
+            tips: tips_beyond((existence, mechanism), (FALLING[1], &EndCause::Range), ends_below, -1.0),
+        };
+        let below = Self::towards(existence, mechanism, ends_below, -1.0);
+        below.or(Some(at_once)).filter(|upright| upright.until > FALLING[0])
     }
 
     /// Ends are those near the friction of the model, and far from it; the way is up or down.
-    fn towards(
-        existence: &Existence,
-        mechanism: &Mechanism,
-        ends: impl Fn(&ModeInterval) -> [&ModeEnd; 2],
-        way: f64,
-    ) -> Option<Self> {
+    fn towards(existence: &Existence, mechanism: &Mechanism, ends: Ends, way: f64) -> Option<Self> {
         let mut modes: Vec<&ModeInterval> = upright(existence, mechanism).collect();
         let near = |mode: &ModeInterval| way * ends(mode)[0].at;
         modes.sort_by(|one, other| near(one).total_cmp(&near(other)));
@@ -54,11 +42,26 @@ impl Upright {
             let goes_on = way * near <= way * reached || is_same_end(near.max(reached), near.min(reached));
             if goes_on { Some(if way * far > way * reached { far } else { reached }) } else { end }
         })?;
-        let there = modes.into_iter().map(|mode| (mode, ends(mode)[1]));
-        let there = there.filter(|(_, end)| is_same_end(until.max(end.at), until.min(end.at)));
-        let tips = there.flat_map(|(mode, end)| tips_at_end(mechanism, (&mode.pattern, end))).collect();
+        let there = modes.into_iter().map(|mode| ends(mode)[1]);
+        let there = there.filter(|end| is_same_end(until.max(end.at), until.min(end.at)));
+        let tips = there
+            .flat_map(|end| tips_beyond((existence, mechanism), (until, &end.cause), ends, way))
+            .collect();
         Some(Self { until, tips: distinct(tips) })
     }
+}
+
+/// The ends of a mode: the nearer one on the way and the farther one.
+pub(crate) type Ends = fn(&ModeInterval) -> [&ModeEnd; 2];
+
+/// On the way up.
+pub(crate) fn ends_above(mode: &ModeInterval) -> [&ModeEnd; 2] {
+    [&mode.from, &mode.to]
+}
+
+/// On the way down.
+pub(crate) fn ends_below(mode: &ModeInterval) -> [&ModeEnd; 2] {
+    [&mode.to, &mode.from]
 }
 
 /// Names in order, each once.
@@ -76,11 +79,23 @@ pub(crate) fn upright<'e>(
     existence.modes.iter().filter(|mode| mechanism.tipped(&mode.pattern).is_empty())
 }
 
-/// The joints that tip where a mode ends.
-pub(crate) fn tips_at_end(mechanism: &Mechanism, (pattern, end): (&[ContactState], &ModeEnd)) -> Vec<String> {
-    match &end.cause {
-        EndCause::OutputBound(bounds) => mechanism.guided_sliders(bounds),
-        EndCause::SideChange(contacts) => mechanism.tipped_by(pattern, contacts),
-        _ => Vec::new(),
+/// The joints that tip just beyond a place where a mode ends in which nothing tips, up (1) or down (-1): the guided sliders that
+/// end it, else what tips in the modes that go on. None where nothing goes on, as it jams, and where something else does.
+pub(crate) fn tips_beyond(
+    (existence, mechanism): (&Existence, &Mechanism),
+    (at, cause): (f64, &EndCause),
+    ends: Ends,
+    way: f64,
+) -> Vec<String> {
+    if let EndCause::OutputBound(bounds) = cause {
+        return mechanism.guided_sliders(bounds);
     }
+    let goes_on = |mode: &&ModeInterval| {
+        let [near, far] = ends(mode).map(|end| end.at);
+        let is_at = |end: f64| is_same_end(end.max(at), end.min(at));
+        (way * near <= way * at || is_at(near)) && way * far > way * at && !is_at(far)
+    };
+    let tipped: Vec<_> =
+        existence.modes.iter().filter(goes_on).map(|mode| mechanism.tipped(&mode.pattern)).collect();
+    if tipped.iter().any(Vec::is_empty) { Vec::new() } else { distinct(tipped.concat()) }
 }

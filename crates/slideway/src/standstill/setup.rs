@@ -89,13 +89,9 @@ impl Setup {
     /// The end of the work; what makes no sense in the model or its position, an unknown load, a load that is zero.
     pub(super) fn new(model: &Model, options: &HoldOptions, work: Work<'_>) -> Result<Self, Faults> {
         let original = at_rest(Mechanism::new(model)?);
-        if original.has_one_sided() {
-            // What tips out of the drawing slides otherwise at each of its contacts.
-            original.check_planar("rest on contacts that may lift off")?;
-        }
-        if original.has_ends() {
-            original.check_planar("rest on a round rod")?;
-        }
+        // What tips out of the drawing slides otherwise at each of its contacts.
+        original.check_planar("rest on contacts that may lift off", original.one_sided())?;
+        original.check_planar("rest on a round rod", original.ends())?;
         original.check_size()?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();

@@ -448,7 +448,7 @@ pub(crate) fn fault(text: &str) -> FaultKind {
 fn three_corners_on_a_line_are_refused() {
     let third = "[joints.third]\ntype = \"corner_on_face\"\nblock = \"box\"\nat = \"M\"\nalong = \"slope\"\nmu = 0.1\n[coordinates.x]";
     let kind = fault(&BOX.replace("[coordinates.x]", third));
-    let FaultKind::OneSidedInExcess { contacts } = kind else { panic!("{kind}") };
+    let FaultKind::OneSidedInExcess { contacts, .. } = kind else { panic!("{kind}") };
     assert_eq!(contacts, ["base.front", "base.rear", "third"]);
 }
 
@@ -471,7 +471,7 @@ fn corners_that_cannot_touch_together_are_refused_and_wedged() {
         corner("right_mouth", "E", "90 deg"),
     );
     let kind = fault(&text);
-    let FaultKind::OneSidedInExcess { contacts } = kind else { panic!("{kind}") };
+    let FaultKind::OneSidedInExcess { contacts, .. } = kind else { panic!("{kind}") };
     assert_eq!(contacts, ["left_tip", "right_tip", "left_mouth", "right_mouth"]);
     let held = hold(&Model::parse(&text).unwrap(), &HoldOptions::default()).unwrap();
     assert!(held.holds, "{:?}", held.verdict);

@@ -52,8 +52,7 @@ fn ranges_at_rest_have_a_width() {
 #[test]
 fn the_headline_counts_what_is_taken() {
     let answer = report("rod-on-floor", &[]).answer();
-    let first = "2 solutions: from this state it can go on in one way. The other state is unstable.";
-    assert!(answer.starts_with(first), "{answer}");
+    assert!(answer.contains("Another solution is unstable: a real mechanism leaves it."), "{answer}");
 }
 
 /// The tip of the rod locks by itself at `mu = 4/3`, where its column vanishes: a normal force, and `mu` times it.

@@ -228,12 +228,13 @@ impl<W: Write> Shown<W> {
 impl<W: Write> Write for Shown<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let Some(room) = &mut self.room else { return self.target.write(bytes) };
-        for line in bytes.split_inclusive(|byte| *byte == b'\n') {
-            if !line.starts_with(b"#") && *room == 0 {
+        // What tells a file's reader where it comes from is known here.
+        for line in bytes.split_inclusive(|byte| *byte == b'\n').filter(|line| !line.starts_with(b"#")) {
+            if *room == 0 {
                 self.left_out += 1;
                 continue;
             }
-            *room -= usize::from(!line.starts_with(b"#"));
+            *room -= 1;
             self.target.write_all(line)?;
         }
         Ok(bytes.len())

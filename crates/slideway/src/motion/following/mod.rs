@@ -50,9 +50,7 @@ pub fn simulate_with(
     mechanism.check_no_press_fit("a motion in time")?;
     let mechanism = &mechanism.with_loose_faces()?;
     mechanism.check_one_sided_in_excess()?;
-    if mechanism.has_ends() {
-        mechanism.check_planar("a motion on a round rod")?;
-    }
+    mechanism.check_planar("a motion on a round rod", mechanism.ends())?;
     mechanism.check_determinate("a motion in time")?;
     check_tolerance(mechanism, configuration, options.tolerance)?;
     let mechanism = &with_rough_hinges_alone(mechanism);

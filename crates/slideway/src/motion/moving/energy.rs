@@ -3,7 +3,7 @@
 use super::equations::Equations;
 use crate::configuration::Configuration;
 use crate::ids::DriveId;
-use crate::kinetics::{Wrench, effort_forces};
+use crate::kinetics::velocity_of_effort;
 use crate::mechanism::{Load, LoadKind, Mechanism, Quantity, length};
 
 /// Kinetic energy (J): sum of m v^2 / 2 + J omega^2 / 2.
@@ -79,14 +79,13 @@ pub(in crate::motion) fn powers(equations: &Equations<'_>, powers: &mut [f64]) {
             0.0
         } else {
             let wrenches = equations.applied.of_load(index).iter();
-            let power: f64 = wrenches.map(|wrench| power_of(&equations.configuration, wrench)).sum();
+            let power: f64 = wrenches.map(|wrench| wrench.power(&equations.configuration)).sum();
             power + stored(equations, &equations.mechanism.loads[index])
         };
     }
     for (index, power) in drives.iter_mut().enumerate() {
         let effort = &equations.mechanism.drives[index].effort;
-        let units = effort_forces(equations.mechanism, &equations.configuration, effort);
-        let unit: f64 = units.map(|wrench| power_of(&equations.configuration, &wrench)).sum();
+        let unit = velocity_of_effort(equations.mechanism, &equations.configuration, effort);
         *power = equations.effort(DriveId(index)) * unit;
     }
 }
@@ -98,9 +97,4 @@ fn stored(equations: &Equations<'_>, load: &Load) -> f64 {
         LoadKind::Pad(pad) => pad.elastic(equations.configuration.depth(equations.mechanism, pad))[1],
         _ => 0.0,
     }
-}
-
-fn power_of(configuration: &Configuration, wrench: &Wrench) -> f64 {
-    let velocity = configuration.velocity_at(wrench.frame, wrench.place);
-    wrench.force.dot(&velocity) + wrench.couple * configuration.angular_velocity(wrench.frame)
 }
