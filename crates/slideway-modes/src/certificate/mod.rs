@@ -43,7 +43,7 @@ pub use crate::problem::{IntervalModeProblem, IntervalModeProblemError, ProblemV
 pub use cell::{Cell, CellPart};
 pub(super) use condensed::Condensed;
 pub(super) use decision::decide_while;
-pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
+pub use decision::{Decision, Precision, ProvenDecision, decide};
 pub(super) use elimination::mantissa_and_exponent;
 pub use enclosure::{LinearEnclosure, enclose_solution, enclose_solution_while, proven_determinant_sign};
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
