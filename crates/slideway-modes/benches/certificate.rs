@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::TestRunner;
-use slideway_modes::certificate::{Cell, decide, propagate, proves_at_most_one, proves_empty, solve_exactly};
+use slideway_modes::certificate::{Cell, decide, propagate, proves_empty, solve_exactly};
 use slideway_modes::{ContactState, ModeProblem};
 
 const SIZES: [usize; 5] = [8, 12, 16, 24, 40];
@@ -56,13 +56,6 @@ fn exact_solution(bencher: Bencher<'_, '_>, contacts: usize) {
 fn interval_propagation(bencher: Bencher<'_, '_>, contacts: usize) {
     each_pattern(bencher, contacts, |problem, pattern| {
         propagate(problem, &pattern.iter().copied().map(Some).collect::<Vec<_>>())
-    });
-}
-
-#[divan::bench(args = SIZES)]
-fn norm_test(bencher: Bencher<'_, '_>, contacts: usize) {
-    each_pattern(bencher, contacts, |problem, pattern| {
-        proves_at_most_one(problem, &vec![None; pattern.len()])
     });
 }
 

@@ -57,7 +57,7 @@ mod _slideway {
     #[pymodule_export]
     use crate::model::Model;
     #[pymodule_export]
-    use crate::modes::{blocks, game, hlcp, lcp, mcp, mlcp, mode_problem, solve};
+    use crate::modes::matrices;
     #[pymodule_export]
     use crate::motion::Motion;
     #[pymodule_export]

@@ -102,11 +102,6 @@ impl<'py> Serializer<'py> {
     fn made<T: IntoPyObject<'py>>(&self, value: T) -> Made<'py> {
         Ok(value.into_bound_py_any(self.py)?)
     }
-
-    /// Returns the serializer for values within this one: without a hint.
-    fn plain(&self) -> Self {
-        Self { py: self.py, hint: None }
-    }
 }
 
 macro_rules! numbers {
@@ -123,10 +118,10 @@ impl<'py> ser::Serializer for Serializer<'py> {
     type SerializeSeq = Sequence<'py>;
     type SerializeTuple = Sequence<'py>;
     type SerializeTupleStruct = Sequence<'py>;
-    type SerializeTupleVariant = Variant<Sequence<'py>>;
+    type SerializeTupleVariant = ser::Impossible<Self::Ok, Error>;
     type SerializeMap = Fields<'py>;
     type SerializeStruct = Fields<'py>;
-    type SerializeStructVariant = Variant<Fields<'py>>;
+    type SerializeStructVariant = ser::Impossible<Self::Ok, Error>;
 
     numbers! {
         serialize_i8: i8, serialize_i16: i16, serialize_i32: i32, serialize_i64: i64,
@@ -181,8 +176,9 @@ impl<'py> ser::Serializer for Serializer<'py> {
         variant: &'static str,
         value: &T,
     ) -> Made<'py> {
-        let inner = value.serialize(self.plain())?;
-        one(self.py, variant, inner)
+        let dict = PyDict::new(self.py);
+        dict.set_item(variant, value.serialize(Self { py: self.py, hint: None })?)?;
+        Ok(dict.into_any())
     }
 
     fn serialize_seq(self, length: Option<usize>) -> Result<Sequence<'py>, Error> {
@@ -199,12 +195,12 @@ impl<'py> ser::Serializer for Serializer<'py> {
 
     fn serialize_tuple_variant(
         self,
-        _name: &'static str,
+        name: &'static str,
         _index: u32,
         variant: &'static str,
-        length: usize,
-    ) -> Result<Variant<Sequence<'py>>, Error> {
-        Ok(Variant { variant, inner: self.serialize_seq(Some(length))? })
+        _length: usize,
+    ) -> Result<Self::SerializeTupleVariant, Error> {
+        Err(no_report(name, variant))
     }
 
     fn serialize_map(self, _length: Option<usize>) -> Result<Fields<'py>, Error> {
@@ -220,20 +216,18 @@ impl<'py> ser::Serializer for Serializer<'py> {
 
     fn serialize_struct_variant(
         self,
-        _name: &'static str,
+        name: &'static str,
         _index: u32,
         variant: &'static str,
         _length: usize,
-    ) -> Result<Variant<Fields<'py>>, Error> {
-        Ok(Variant { variant, inner: Fields::new(self.py, None)? })
+    ) -> Result<Self::SerializeStructVariant, Error> {
+        Err(no_report(name, variant))
     }
 }
 
-/// `{variant: inner}`
-fn one<'py>(py: Python<'py>, variant: &str, inner: Bound<'py, PyAny>) -> Made<'py> {
-    let dict = PyDict::new(py);
-    dict.set_item(variant, inner)?;
-    Ok(dict.into_any())
+/// Variants of several values have a tag in reports, which makes structs of them.
+fn no_report(name: &str, variant: &str) -> Error {
+    ser::Error::custom(format!("the variant {variant} of {name} has no tag"))
 }
 
 struct Sequence<'py> {
@@ -373,40 +367,5 @@ impl<'py> ser::SerializeMap for Fields<'py> {
 
     fn end(self) -> Made<'py> {
         self.done()
-    }
-}
-
-/// A variant with values.
-struct Variant<I> {
-    variant: &'static str,
-    inner: I,
-}
-
-impl<'py> ser::SerializeTupleVariant for Variant<Sequence<'py>> {
-    type Ok = Bound<'py, PyAny>;
-    type Error = Error;
-
-    fn serialize_field<T: Serialize + ?Sized>(&mut self, value: &T) -> Result<(), Error> {
-        self.inner.push(value)
-    }
-
-    fn end(self) -> Made<'py> {
-        let py = self.inner.of.py;
-        one(py, self.variant, self.inner.done()?)
-    }
-}
-
-impl<'py> ser::SerializeStructVariant for Variant<Fields<'py>> {
-    type Ok = Bound<'py, PyAny>;
-    type Error = Error;
-
-    fn serialize_field<T: Serialize + ?Sized>(&mut self, key: &'static str, value: &T) -> Result<(), Error> {
-        let key = PyString::intern(self.inner.dict.py(), attribute(key)).into_any();
-        self.inner.set(&key, value)
-    }
-
-    fn end(self) -> Made<'py> {
-        let py = self.inner.dict.py();
-        one(py, self.variant, self.inner.done()?)
     }
 }

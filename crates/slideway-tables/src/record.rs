@@ -156,19 +156,7 @@ mod tests {
             attainability: true,
             numbered: true,
         };
-        let head = RowHead {
-            point: 0,
-            breakpoint: Breakpoint::No,
-            inserted: false,
-            status: PointStatus::None,
-            solutions: 0,
-            gap_states: 0,
-            rejected: 0,
-            kind: RowKind::Nothing,
-            branch: 0,
-            verdict: Verdict::NotComputed,
-            negative_determinant: None,
-        };
+        let head = RowHead::of_point(0, PointStatus::None);
         let heads: Vec<RowHead> = (Breakpoint::ALL.iter().map(|&breakpoint| RowHead { breakpoint, ..head }))
             .chain(PointStatus::ALL.iter().map(|&status| RowHead { status, ..head }))
             .chain(RowKind::ALL.iter().map(|&kind| RowHead { kind, ..head }))

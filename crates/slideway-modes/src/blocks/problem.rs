@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::interval::Interval;
 use crate::interval_matrix::IntervalMatrix;
-use crate::problem::{BlockNumbers, BySide, ContactState, ModeProblemError, ProblemPart, Side};
+use crate::problem::{BlockNumbers, BySide, ContactState, ModeProblemError, ProblemPart, Side, check};
 
 /// The mode problem of `s` contacts and `h` hinges with friction,
 ///
@@ -74,10 +74,10 @@ impl BlockProblem {
         let rows = load.shape().0;
         let columns = response.positive.shape().1.clamp(rows.div_ceil(2), rows);
         let contacts = 2 * columns - rows;
-        check(ProblemPart::RightHandSide, &load, (rows, 1))?;
+        check(ProblemPart::RightHandSide, load.centre(), (rows, 1))?;
         for side in Side::BOTH {
-            check(ProblemPart::Columns(side), response.get(side), (rows, columns))?;
-            check(ProblemPart::Jumps(side), jumps.get(side), (rows, contacts))?;
+            check(ProblemPart::Columns(side), response.get(side).centre(), (rows, columns))?;
+            check(ProblemPart::Jumps(side), jumps.get(side).centre(), (rows, contacts))?;
         }
         let differs = |part: &BySide<IntervalMatrix>, column: usize| {
             let parts = [&part.positive, &part.negative];
@@ -102,7 +102,7 @@ impl BlockProblem {
     pub fn with_response_times(&self, factors: &[f64]) -> Result<Self, ModeProblemError> {
         let response = self.response.try_map(|side, given| {
             let matrix = IntervalMatrix::exact(times(given.centre().clone(), factors));
-            check(ProblemPart::Columns(side), &matrix, matrix.shape()).map(|()| matrix)
+            check(ProblemPart::Columns(side), matrix.centre(), matrix.shape()).map(|()| matrix)
         })?;
         Ok(Self { response, ..self.clone() })
     }
@@ -246,21 +246,4 @@ pub(crate) fn times(mut matrix: DMatrix<f64>, factors: &[f64]) -> DMatrix<f64> {
         column.scale_mut(*factor);
     }
     matrix
-}
-
-fn check(
-    part: ProblemPart,
-    matrix: &IntervalMatrix,
-    expected: (usize, usize),
-) -> Result<(), ModeProblemError> {
-    if matrix.shape() != expected {
-        return Err(ModeProblemError::Shape { part, expected, found: matrix.shape() });
-    }
-    match matrix.centre().iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        Some((place, &value)) => {
-            let (row, column) = (place % expected.0, place / expected.0);
-            Err(ModeProblemError::NotFinite { part, row, column, value })
-        }
-        None => Ok(()),
-    }
 }

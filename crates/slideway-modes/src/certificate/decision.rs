@@ -76,42 +76,6 @@ pub struct ProvenDecision {
     pub precision: Precision,
 }
 
-/// How many patterns were decided in which arithmetic.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct DecisionCounts {
-    /// Decided in `f64` with bounds on rounding errors.
-    pub double: u64,
-    /// Decided with residuals of twice the digits.
-    pub double_double: u64,
-    /// Decided in rational numbers.
-    pub(crate) rational: u64,
-    /// Not decided, for data within bounds.
-    pub undecided: u64,
-}
-
-impl DecisionCounts {
-    /// Counts one more verdict.
-    pub fn record(&mut self, verdict: &ProvenDecision) {
-        match (&verdict.decision, verdict.precision) {
-            (Decision::Undecided { .. }, _) => self.undecided += 1,
-            (_, Precision::Double) => self.double += 1,
-            (_, Precision::DoubleDouble) => self.double_double += 1,
-            (_, Precision::Rational) => self.rational += 1,
-        }
-    }
-
-    /// The sum of both counts, for results of several threads.
-    #[must_use]
-    pub fn merged(self, other: Self) -> Self {
-        Self {
-            double: self.double + other.double,
-            double_double: self.double_double + other.double_double,
-            rational: self.rational + other.rational,
-            undecided: self.undecided + other.undecided,
-        }
-    }
-}
-
 /// Proves what one pattern of a mode problem admits.
 ///
 /// Solves `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}` for the states of `pattern`, one per contact

@@ -7,8 +7,8 @@
 //! - [`decide`] determines what one pattern of `sum_k c_k^{sigma_k} y_k = N(0) + sum_k d_k^{sigma_k}, y >= 0`
 //!   admits: a solution with its enclosure, none, a solution on the boundary with the `y_k` that are exactly
 //!   zero, or a singular system with the exact set of its solutions (theory, section 3).
-//! - [`proves_empty`] and [`proves_at_most_one`] verify the arguments by which a search excludes whole sets
-//!   of patterns (theory, section 4).
+//! - [`proves_empty`] verifies the argument by which a search excludes whole sets of patterns (theory,
+//!   section 4).
 //!
 //! Each of them takes a [`ModeProblem`](super::ModeProblem), whose numbers are taken as exact (sums of two
 //! matrices unrounded), or an [`IntervalModeProblem`], whose numbers lie anywhere within bounds. In the
@@ -43,7 +43,7 @@ pub use crate::problem::{IntervalModeProblem, IntervalModeProblemError, ProblemV
 pub use cell::{Cell, CellPart};
 pub(super) use condensed::Condensed;
 pub(super) use decision::decide_while;
-pub use decision::{Decision, DecisionCounts, Precision, ProvenDecision, decide};
+pub use decision::{Decision, Precision, ProvenDecision, decide};
 pub(super) use elimination::mantissa_and_exponent;
 pub use enclosure::{LinearEnclosure, enclose_solution, enclose_solution_while, proven_determinant_sign};
 pub use exact::{ExactOutcome, solve_exactly, solve_part_exactly};
@@ -54,6 +54,5 @@ pub(super) use exclusion::proves_empty_while;
 pub(super) use lifted::{LiftedSystem, make_primitive};
 pub(super) use monotone::Monotone;
 pub(super) use norm::has_norm_below_one;
-pub use norm::proves_at_most_one;
 pub use polyhedron::ExactSet;
 pub use propagation::{Propagation, propagate};

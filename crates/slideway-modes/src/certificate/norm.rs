@@ -1,56 +1,9 @@
-//! Proofs that a set of patterns has at most one solution.
+//! Proofs that symmetric matrices are positive definite, and that the norm of a matrix is below 1.
 
 use nalgebra::DMatrix;
 
-use super::preconditioned::BaseSystem;
 use crate::dense::has_cholesky_factor;
-use crate::interval_matrix::{IntervalMatrix, product, rounding};
-use crate::problem::{ContactState, ProblemView};
-
-/// Whether the patterns with the given states have at most one solution, because a spectral norm is below 1.
-///
-/// `partial` has one entry per contact: its state, or `None` for a contact that may take any state. The
-/// equations are written as `A x + B |x| = b`, where `x_k = N_k`, `A_k = (c_k^+ - c_k^-) / 2` and
-/// `B_k = (c_k^+ + c_k^-) / 2` for undecided contacts, and `x_k = y_k`, `A_k = c_k^sigma`, `B_k = 0` for
-/// those pressed on a known side (and likewise for a share `lambda_k`). If
-///
-/// ```text
-/// sigma_max(A^-1 B) < 1,   that is,   A A^T - B B^T is positive definite
-/// ```
-///
-/// there is exactly one `x` for every `b` (theory, section 4 (c)). Thus, if no contact is decided, there is
-/// exactly one solution; otherwise there is one if the `x_k` of the decided contacts are admissible, and none
-/// if not. This is verified rigorously; `false` means that it was not proved, which is always the case if the
-/// right-hand side jumps at an undecided contact.
-///
-/// # Panics
-/// If `partial` does not have one entry per contact.
-///
-/// ```
-/// use nalgebra::{dmatrix, dvector};
-/// use slideway_modes::certificate::proves_at_most_one;
-/// use slideway_modes::ModeProblem;
-/// let b = dmatrix![0.5, 0.6; -0.6, 0.5];
-/// let identity = dmatrix![1.0, 0.0; 0.0, 1.0];
-/// let problem = ModeProblem::from_absolute_value_equation(&identity, &b, dvector![1.0, 1.0])?;
-/// assert!(proves_at_most_one(&problem, &[None, None]));
-/// # Ok::<(), slideway_modes::ModeProblemError>(())
-/// ```
-pub fn proves_at_most_one<'a>(problem: impl Into<ProblemView<'a>>, partial: &[Option<ContactState>]) -> bool {
-    let problem = problem.into();
-    assert_eq!(partial.len(), problem.contacts(), "one entry per contact");
-    let jumps =
-        |(contact, state): (usize, &Option<ContactState>)| state.is_none() && problem.has_jump(contact);
-    if partial.iter().enumerate().any(jumps) {
-        return false;
-    }
-    let Some(base) = BaseSystem::new(problem, partial) else { return false };
-    let Some(inverse) = base.matrix().centre().clone().try_inverse() else { return false };
-    // R A and R B instead of A and B: (R A)^-1 R B = A^-1 B.
-    let preconditioned = |matrix| product(&inverse, matrix, &mut || true);
-    let parts = preconditioned(base.matrix()).zip(preconditioned(base.absolute()));
-    parts.is_some_and(|(one, other)| is_larger(&one, &other))
-}
+use crate::interval_matrix::{IntervalMatrix, rounding};
 
 /// Whether the largest singular value of all matrices within bounds is below 1: `I - M M^T` is positive definite.
 pub(crate) fn has_norm_below_one(matrix: &IntervalMatrix) -> bool {
@@ -106,4 +59,23 @@ fn exceeds(mut matrix: DMatrix<f64>, spread: f64) -> bool {
         matrix[(at, at)] -= shift;
     }
     matrix.iter().all(|value| value.is_finite()) && has_cholesky_factor(matrix, &mut || true)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// An orthogonal matrix with many entries: the spectral radius of their sizes is 4.
+    #[test]
+    fn the_norm_of_a_rotation_is_below_one_exactly_if_its_factor_is() {
+        let entry =
+            |row: usize, column: usize| if (row & column).count_ones() % 2 == 0 { 0.25 } else { -0.25 };
+        let times = |factor: f64| DMatrix::from_fn(16, 16, |row, column| factor * entry(row, column));
+        let is_below = |factor: f64, width: f64| {
+            let radius = DMatrix::repeat(16, 16, width);
+            IntervalMatrix::around(times(factor), radius).is_some_and(|matrix| has_norm_below_one(&matrix))
+        };
+        assert!(is_below(0.6, 0.0) && is_below(1.0 - 1e-9, 0.0) && is_below(0.6, 1e-3));
+        assert!(!is_below(1.0, 0.0) && !is_below(1.0 + 1e-9, 0.0) && !is_below(0.6, 0.1));
+    }
 }

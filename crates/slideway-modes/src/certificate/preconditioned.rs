@@ -70,16 +70,6 @@ impl BaseSystem {
         })
     }
 
-    /// `A`.
-    pub(super) fn matrix(&self) -> &IntervalMatrix {
-        &self.matrix
-    }
-
-    /// `B`.
-    pub(super) fn absolute(&self) -> &IntervalMatrix {
-        &self.absolute
-    }
-
     /// The equations multiplied by an approximate inverse `R` of `A`; `None` if there is none.
     pub(super) fn preconditioned(&self) -> Option<Preconditioned> {
         let inverse = self.matrix.centre().clone().try_inverse()?;

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::interval::{Interval, Real};
 use crate::interval_matrix::IntervalMatrix;
 use crate::problem::bounds::{IntervalModeProblem, IntervalModeProblemError};
-use crate::problem::mode_problem::{ModeProblem, ModeProblemError};
+use crate::problem::mode_problem::{ModeProblem, ModeProblemError, check};
 use crate::problem::shared_load::SharedLoad;
 use crate::problem::side::{BySide, ProblemPart, Side};
 
@@ -197,47 +197,20 @@ impl<T: Real> InfluenceCoefficients<T> {
         if let Some((contact, &value)) = self.velocity_signs.iter().enumerate().find(|&(_, &s)| !is_sign(s)) {
             return Err(ModeProblemError::VelocitySign { contact, value });
         }
-        check(
-            ProblemPart::RightHandSide,
-            (self.frictionless.shape(), self.frictionless.as_slice()),
-            contacts,
-            1,
-        )?;
+        check(ProblemPart::RightHandSide, &self.frictionless, (contacts, 1))?;
         for side in Side::BOTH {
             for (part, matrix) in
                 [(ProblemPart::Columns(side), &self.eta), (ProblemPart::Jumps(side), &self.eta_preload)]
             {
-                let matrix = matrix.get(side);
-                check(part, (matrix.shape(), matrix.as_slice()), contacts, contacts)?;
+                check(part, matrix.get(side), (contacts, contacts))?;
             }
             for (part, vector) in
                 [(ProblemPart::Friction(side), &self.mu), (ProblemPart::Preload(side), &self.preload)]
             {
-                let vector = vector.get(side);
-                check(part, (vector.shape(), vector.as_slice()), contacts, 1)?;
+                check(part, vector.get(side), (contacts, 1))?;
             }
         }
         self.shared.as_ref().map_or(Ok(()), |shared| shared.check(contacts))
-    }
-}
-
-/// Refuses a part of the wrong shape or with an entry that is not finite; entries are column by column.
-fn check<T: Real>(
-    part: ProblemPart,
-    (found, entries): ((usize, usize), &[T]),
-    rows: usize,
-    columns: usize,
-) -> Result<(), ModeProblemError> {
-    let expected = (rows, columns);
-    if found != expected {
-        return Err(ModeProblemError::Shape { part, expected, found });
-    }
-    match entries.iter().position(|entry| !entry.is_finite()) {
-        Some(at) => {
-            let value = entries[at].middle();
-            Err(ModeProblemError::NotFinite { part, row: at % rows, column: at / rows, value })
-        }
-        None => Ok(()),
     }
 }
 

@@ -17,6 +17,7 @@ mod side;
 pub(crate) use bounds::{Column, column_slice};
 pub use bounds::{IntervalModeProblem, IntervalModeProblemError, ProblemView};
 pub use influence::{BlockNumbers, InfluenceCoefficients};
+pub(crate) use mode_problem::check;
 pub use mode_problem::{ModeProblem, ModeProblemError};
 pub use pattern::{ContactState, SetPart, SolutionSet};
 pub(crate) use pattern::{advance, patterns, pressed_sides};

@@ -1,8 +1,10 @@
 //! The mode problem as pure numbers: two versions of every column and of every jump vector.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::allocator::Allocator;
+use nalgebra::{DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix};
 
 use crate::error_free::sum_remainder;
+use crate::interval::Real;
 use crate::problem::radii::Radii;
 use crate::problem::side::{BySide, ProblemPart, Side};
 
@@ -131,10 +133,10 @@ impl ModeProblem {
         let contacts = right_hand_side.len();
         let columns = BySide { positive: columns_positive, negative: columns_negative };
         let jumps = BySide { positive: jumps_positive, negative: jumps_negative };
-        check_vector(ProblemPart::RightHandSide, &right_hand_side, contacts)?;
+        check(ProblemPart::RightHandSide, &right_hand_side, (contacts, 1))?;
         for side in Side::BOTH {
-            check_matrix(ProblemPart::Columns(side), columns.get(side), contacts)?;
-            check_matrix(ProblemPart::Jumps(side), jumps.get(side), contacts)?;
+            check(ProblemPart::Columns(side), columns.get(side), (contacts, contacts))?;
+            check(ProblemPart::Jumps(side), jumps.get(side), (contacts, contacts))?;
         }
         Ok(Self::unchecked(columns, jumps, right_hand_side))
     }
@@ -161,8 +163,8 @@ impl ModeProblem {
         right_hand_side: DVector<f64>,
     ) -> Result<Self, ModeProblemError> {
         let contacts = right_hand_side.len();
-        check_matrix(ProblemPart::Columns(Side::Positive), a, contacts)?;
-        check_matrix(ProblemPart::Columns(Side::Negative), b, contacts)?;
+        check(ProblemPart::Columns(Side::Positive), a, (contacts, contacts))?;
+        check(ProblemPart::Columns(Side::Negative), b, (contacts, contacts))?;
         let none = DMatrix::zeros(contacts, contacts);
         let mut problem = Self::new(a + b, b - a, none.clone(), none, right_hand_side)?;
         let lost = |one: &DMatrix<f64>, other: &DMatrix<f64>, sum: &DMatrix<f64>| {
@@ -339,28 +341,24 @@ impl ModeProblem {
     }
 }
 
-fn check_matrix(part: ProblemPart, matrix: &DMatrix<f64>, contacts: usize) -> Result<(), ModeProblemError> {
-    if matrix.shape() != (contacts, contacts) {
-        let expected = (contacts, contacts);
+/// Refuses a part of the wrong shape or with an entry that is not finite.
+pub(crate) fn check<T: Real, C: Dim>(
+    part: ProblemPart,
+    matrix: &OMatrix<T, Dyn, C>,
+    expected: (usize, usize),
+) -> Result<(), ModeProblemError>
+where
+    DefaultAllocator: Allocator<Dyn, C>,
+{
+    if matrix.shape() != expected {
         return Err(ModeProblemError::Shape { part, expected, found: matrix.shape() });
     }
-    for column in 0..contacts {
-        for row in 0..contacts {
-            let value = matrix[(row, column)];
-            if !value.is_finite() {
-                return Err(ModeProblemError::NotFinite { part, row, column, value });
-            }
+    match matrix.iter().position(|entry| !entry.is_finite()) {
+        Some(at) => {
+            let (row, column) = (at % expected.0, at / expected.0);
+            let value = matrix[(row, column)].middle();
+            Err(ModeProblemError::NotFinite { part, row, column, value })
         }
-    }
-    Ok(())
-}
-
-fn check_vector(part: ProblemPart, vector: &DVector<f64>, contacts: usize) -> Result<(), ModeProblemError> {
-    if vector.len() != contacts {
-        return Err(ModeProblemError::Shape { part, expected: (contacts, 1), found: vector.shape() });
-    }
-    match vector.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        Some((row, &value)) => Err(ModeProblemError::NotFinite { part, row, column: 0, value }),
         None => Ok(()),
     }
 }

@@ -8,7 +8,7 @@ use super::range::TOGETHER;
 use crate::blocks::BlockProblem;
 use crate::certificate::{IntervalMatrix, enclose_solution, solve_matrix_exactly};
 use crate::interval::Interval;
-use crate::problem::{BySide, ModeProblemError, ProblemPart, Side};
+use crate::problem::{BySide, ModeProblemError, ProblemPart, Side, check};
 
 /// An absolute value equation whose unknowns come in blocks of one or two components,
 ///
@@ -189,17 +189,4 @@ fn with_rows(matrix: &IntervalMatrix, rows: &[usize]) -> IntervalMatrix {
     let of = |part: &DMatrix<f64>| part.select_rows(rows);
     IntervalMatrix::around(of(matrix.centre()), of(matrix.radius()))
         .expect("parts of an interval matrix are one")
-}
-
-fn check(part: ProblemPart, matrix: &DMatrix<f64>, expected: (usize, usize)) -> Result<(), ModeProblemError> {
-    if matrix.shape() != expected {
-        return Err(ModeProblemError::Shape { part, expected, found: matrix.shape() });
-    }
-    match matrix.iter().position(|value| !value.is_finite()) {
-        Some(at) => {
-            let (row, column) = (at % expected.0, at / expected.0);
-            Err(ModeProblemError::NotFinite { part, row, column, value: matrix[at] })
-        }
-        None => Ok(()),
-    }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde_json::Value;
 
 use super::assemble::{Given, GivenType};
@@ -15,8 +15,8 @@ use super::shape::Array;
 /// The names and arrays of a JSON text; faults of single arrays are added to `faults`.
 pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, RawFault> {
     let object = match serde_json::from_slice(bytes) {
-        Ok(Top::Object(entries)) => entries,
-        Ok(Top::Other(value)) => return Err(RawFault::NotAnObject { found: word(&value) }),
+        Ok(Entries(entries)) => entries,
+        Err(error) if error.is_data() => return Err(no_object(bytes)),
         Err(error) => return Err(syntax(bytes, &error)),
     };
     let mut given = Given::default();
@@ -38,63 +38,46 @@ pub(super) fn read(bytes: &[u8], faults: &mut Vec<RawFault>) -> Result<Given, Ra
     Ok(given)
 }
 
-/// The top level of the text: the entries of an object in their order, including repeated names.
-enum Top {
-    Object(Vec<(String, Value)>),
-    Other(Value),
-}
+/// The entries of an object in their order, including repeated names.
+struct Entries(Vec<(String, Value)>);
 
-impl<'de> Deserialize<'de> for Top {
+impl<'de> Deserialize<'de> for Entries {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
+        struct OfObject;
 
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Top;
+        impl<'de> Visitor<'de> for OfObject {
+            type Value = Entries;
 
             fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
                 formatter.write_str("an object")
             }
 
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Top, A::Error> {
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries, A::Error> {
                 let mut entries = Vec::new();
                 while let Some(entry) = map.next_entry()? {
                     entries.push(entry);
                 }
-                Ok(Top::Object(entries))
-            }
-
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(self, mut seq: A) -> Result<Top, A::Error> {
-                while seq.next_element::<serde::de::IgnoredAny>()?.is_some() {}
-                Ok(Top::Other(Value::Array(Vec::new())))
-            }
-
-            fn visit_str<E>(self, text: &str) -> Result<Top, E> {
-                Ok(Top::Other(text.into()))
-            }
-
-            fn visit_unit<E>(self) -> Result<Top, E> {
-                Ok(Top::Other(Value::Null))
-            }
-
-            fn visit_bool<E>(self, truth: bool) -> Result<Top, E> {
-                Ok(Top::Other(truth.into()))
-            }
-
-            fn visit_u64<E>(self, number: u64) -> Result<Top, E> {
-                Ok(Top::Other(number.into()))
-            }
-
-            fn visit_i64<E>(self, number: i64) -> Result<Top, E> {
-                Ok(Top::Other(number.into()))
-            }
-
-            fn visit_f64<E>(self, number: f64) -> Result<Top, E> {
-                Ok(Top::Other(number.into()))
+                Ok(Entries(entries))
             }
         }
 
-        deserializer.deserialize_any(Entries)
+        deserializer.deserialize_map(OfObject)
     }
+}
+
+/// Why a text is no object, in JSON or not.
+fn no_object(bytes: &[u8]) -> RawFault {
+    if let Err(error) = serde_json::from_slice::<IgnoredAny>(bytes) {
+        return syntax(bytes, &error);
+    }
+    let found = match bytes.trim_ascii_start().first() {
+        Some(b'[') => Value::Array(Vec::new()),
+        Some(b'"') => Value::String(String::new()),
+        Some(b'n') => Value::Null,
+        Some(b't' | b'f') => Value::Bool(true),
+        _ => Value::from(0),
+    };
+    RawFault::NotAnObject { found: word(&found) }
 }
 
 /// A number, a vector or a matrix.

@@ -140,7 +140,7 @@ impl<'p, 'm, 'c> Composer<'p, 'm, 'c> {
             }
             let enough = found.to_u64().is_none_or(|found| found >= self.options.limits.solutions as u64);
             if enough && at + 1 < answer.states.len() {
-                self.monitor.have_enough();
+                self.monitor.add_enough(true);
                 break;
             }
             done += share;

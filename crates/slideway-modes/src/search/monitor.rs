@@ -158,14 +158,10 @@ impl<'a> Monitor<'a> {
         std::mem::take(&mut self.enough.some)
     }
 
-    /// Puts back what [`take_enough`](Self::take_enough) returned.
+    /// Puts back what [`take_enough`](Self::take_enough) returned; `true` where not every combination of solutions is looked for,
+    /// since there are as many as are wanted.
     pub(super) fn add_enough(&mut self, taken: bool) {
         self.enough.some |= taken;
-    }
-
-    /// Not every combination of solutions is looked for, since there are as many as are wanted.
-    pub(super) fn have_enough(&mut self) {
-        self.enough.some = true;
     }
 
     pub(super) fn count_found(&mut self, states: usize) {

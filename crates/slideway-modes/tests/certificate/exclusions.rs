@@ -4,10 +4,9 @@ use dashu_ratio::RBig;
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use proptest::prelude::*;
 use slideway_modes::certificate::{
-    Interval, IntervalMatrix, IntervalModeProblem, Propagation, Sign, propagate, proves_at_most_one,
-    proves_empty,
+    Interval, IntervalMatrix, IntervalModeProblem, Propagation, Sign, propagate, proves_empty,
 };
-use slideway_modes::{BySide, ContactState, ModeProblem, Side};
+use slideway_modes::{BySide, ContactState, ModeProblem};
 
 use crate::oracle::{self, Digits, STATES, agrees, forces, patterns, rational};
 
@@ -110,27 +109,6 @@ proptest! {
             }
         }
     }
-
-    #[test]
-    fn at_most_one_solution_where_that_is_proved(problem in problems(1..=3)) {
-        let solutions = all_solutions(&problem);
-        for partial in partial_patterns(problem.contacts()) {
-            if !proves_at_most_one(&problem, &partial) {
-                continue;
-            }
-            let mut distinct: Vec<Vec<RBig>> = Vec::new();
-            for (pattern, vertices) in solutions.iter().filter(|(pattern, _)| agrees(pattern, &partial)) {
-                // Undecided contacts have no jump, so that their gaps add nothing but shares.
-                for forces in vertices.iter().map(|point| forces(point, pattern)) {
-                    if !distinct.contains(&forces) {
-                        distinct.push(forces);
-                    }
-                }
-            }
-            prop_assert!(distinct.len() <= 1);
-            prop_assert!(distinct.len() == 1 || partial.iter().any(Option::is_some));
-        }
-    }
 }
 
 fn are_within(
@@ -226,36 +204,6 @@ fn weak_coupling_fixes_every_side() {
     let mut wrong = vec![None; contacts];
     wrong[1] = Some(ContactState::Negative);
     assert_eq!(propagate(&problem, &wrong), Propagation::Empty);
-}
-
-#[test]
-fn rotation_is_proved_by_its_norm_only() {
-    // B = 0.6 times an orthogonal matrix with many entries: |B| has a spectral radius above 1.
-    let (size, steps) = (16_usize, 16.0_f64);
-    let hadamard = DMatrix::from_fn(size, size, |row, column| {
-        if (row & column).count_ones() % 2 == 0 { 0.6 / steps.sqrt() } else { -0.6 / steps.sqrt() }
-    });
-    let load = DVector::from_fn(size, |row, _| 1.0 - row as f64 / 5.0);
-    let identity = DMatrix::identity(size, size);
-    let of = |factor: f64| {
-        ModeProblem::from_absolute_value_equation(&identity, &(&hadamard * factor), load.clone())
-            .expect("finite")
-    };
-    let none = vec![None; size];
-    assert_eq!(propagate(&of(1.0), &none), Propagation::Unknown);
-    assert!(proves_at_most_one(&of(1.0), &none));
-    assert!(proves_at_most_one(&of(1.0 / 0.6 - 1e-9), &none));
-    assert!(!proves_at_most_one(&of(1.0 / 0.6), &none));
-    assert!(!proves_at_most_one(&of(1.0 / 0.6 + 1e-9), &none));
-    let within = |width| IntervalModeProblem::widened(&of(1.0), width).expect("finite");
-    assert!(proves_at_most_one(&within(1e-3), &none));
-    assert!(!proves_at_most_one(&within(0.5), &none));
-    // A jump of an undecided contact, however small, takes the proof away.
-    let jump = &identity * 1e-300;
-    let [plus, minus] = Side::BOTH.map(|side| of(1.0).columns(side).clone());
-    let jumping = ModeProblem::new(plus, minus, jump.clone(), -jump, load.clone()).expect("finite");
-    assert!(!proves_at_most_one(&jumping, &none));
-    assert!(proves_at_most_one(&jumping, &vec![Some(ContactState::Positive); size]));
 }
 
 #[test]

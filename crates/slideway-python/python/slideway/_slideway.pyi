@@ -36,7 +36,7 @@ from ._values import (
 )
 
 
-__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "blocks", "frozen_array", "gallery_models", "game", "hlcp", "import_dxf", "lcp", "mcp", "merge", "mlcp", "mode_problem", "png", "printable", "solve", "templates", "theme"]
+__all__ = ["GROUND", "Answer", "Mechanism", "Model", "Motion", "Plot", "Table", "frozen_array", "gallery_models", "import_dxf", "matrices", "merge", "png", "printable", "templates", "theme"]
 
 GROUND: Final[str]
 """
@@ -1552,11 +1552,6 @@ class Table:
         Number of varied quantities.
         """
 
-def blocks(matrices: tuple[ArrayLike, ArrayLike | None], right_hand_side: ArrayLike, blocks: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
-    """
-    All solutions of `A x + B |x| = b` with the lengths of blocks.
-    """
-
 def frozen_array(numbers: Sequence[float]) -> NDArray[np.float64]:
     """
     A NumPy array that cannot be written to.
@@ -1575,16 +1570,6 @@ def gallery_models() -> dict[str, str]:
     >>> import slideway
     >>> slideway.gallery_models()["drawer"]
     'A drawer pushed off-centre.'
-    """
-
-def game(a: ArrayLike, b: ArrayLike | None, options: dict[str, Any]) -> reports.RawReport:
-    """
-    All equilibria of a bimatrix game.
-    """
-
-def hlcp(a: ArrayLike, b: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
-    """
-    All solutions of `A w - B z = q`.
     """
 
 def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str | None = None, time_limit: Number | None = None, progress: Progress | None = None) -> str:
@@ -1634,14 +1619,9 @@ def import_dxf(path: str | PathLike[str], *, unit: str | None = None, title: str
     True
     """
 
-def lcp(m: ArrayLike, q: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
+def matrices(kind: str, arrays: list[tuple[str, ArrayLike | None]], options: dict[str, Any]) -> reports.RawReport:
     """
-    All solutions of `w = M z + q`.
-    """
-
-def mcp(m: ArrayLike, q: ArrayLike, bounds: tuple[ArrayLike, ArrayLike], options: dict[str, Any]) -> reports.RawReport:
-    """
-    All solutions of `w = M z + q` within bounds.
+    All solutions of a problem of a type, given by its arrays with their names; those that it may lack may be None.
     """
 
 def merge(folder: str | PathLike[str], *, time_limit: Number | None = None, progress: Progress | None = None) -> _sweep.Sweep:
@@ -1672,16 +1652,6 @@ def merge(folder: str | PathLike[str], *, time_limit: Number | None = None, prog
     See `Model.write_shard`.
     """
 
-def mlcp(matrices: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike], vectors: tuple[ArrayLike, ArrayLike], options: dict[str, Any]) -> reports.RawReport:
-    """
-    All solutions of `A u + C z + a = 0`, `w = D u + B z + b`.
-    """
-
-def mode_problem(columns_positive: ArrayLike, columns_negative: ArrayLike, right_hand_side: ArrayLike, jumps: tuple[ArrayLike, ArrayLike] | None, options: dict[str, Any]) -> reports.RawReport:
-    """
-    All solutions of a mode problem.
-    """
-
 def png(svg: str, scale: Number) -> bytes:
     """
     A drawing as PNG, with so many pixels for each unit of the SVG.
@@ -1690,11 +1660,6 @@ def png(svg: str, scale: Number) -> bytes:
 def printable(text: str) -> str:
     """
     A text with its characters that are not seen as their numbers, so that it cannot affect the page that shows it.
-    """
-
-def solve(a: ArrayLike, b: ArrayLike, right_hand_side: ArrayLike, options: dict[str, Any]) -> reports.RawReport:
-    """
-    All solutions of `A x + B |x| = b`.
     """
 
 def templates() -> dict[str, str]:

@@ -109,6 +109,10 @@ def _options(search: Search) -> dict[str, Any]:
     return options
 
 
+def _answer(kind: str, search: Search, **arrays: ArrayLike | None) -> reports.RawReport:
+    return _slideway.matrices(kind, list(arrays.items()), _options(search))
+
+
 @_searching
 def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **search: Unpack[Search]) -> reports.RawReport:
     """All solutions `x` of the absolute value equation `A x + B |x| = b`.
@@ -123,7 +127,7 @@ def solve(A: ArrayLike, B: ArrayLike, b: ArrayLike, **search: Unpack[Search]) ->
     >>> [solution.x.tolist() for solution in solve([[1.0]], [[-0.5]], [1.0])]
     [[2.0]]
     """
-    return _slideway.solve(A, B, b, _options(search))
+    return _answer("ave", search, A=A, B=B, b=b)
 
 
 @_searching
@@ -156,7 +160,7 @@ def block_ave(
     >>> sorted(round(float(abs(solution.x[0])), 12) for solution in answer)
     [0.333333333333, 1.0]
     """
-    return _slideway.blocks((B, A), b, blocks, _options(search))
+    return _answer("block_ave", search, A=A, B=B, b=b, blocks=blocks)
 
 
 @_searching
@@ -173,7 +177,7 @@ def lcp(M: ArrayLike, q: ArrayLike, **search: Unpack[Search]) -> reports.RawRepo
     >>> [solution.z.tolist() for solution in lcp([[2.0]], [-1.0])]
     [[0.5]]
     """
-    return _slideway.lcp(M, q, _options(search))
+    return _answer("lcp", search, M=M, q=q)
 
 
 @_searching
@@ -190,7 +194,7 @@ def hlcp(A: ArrayLike, B: ArrayLike, q: ArrayLike, **search: Unpack[Search]) -> 
     >>> [solution.z.tolist() for solution in hlcp([[1.0]], [[2.0]], [-1.0])]
     [[0.5]]
     """
-    return _slideway.hlcp(A, B, q, _options(search))
+    return _answer("hlcp", search, A=A, B=B, q=q)
 
 
 @_searching
@@ -217,7 +221,7 @@ def mlcp(
     >>> [(solution.u.tolist(), solution.z.tolist()) for solution in answer]
     [([1.0], [1.0])]
     """
-    return _slideway.mlcp((A, B, C, D), (a, b), _options(search))
+    return _answer("mlcp", search, A=A, B=B, C=C, D=D, a=a, b=b)
 
 
 @_searching
@@ -237,7 +241,7 @@ def mcp(M: ArrayLike, q: ArrayLike, l: ArrayLike, u: ArrayLike, **search: Unpack
     >>> [(solution.z.tolist(), solution.w.tolist()) for solution in answer]
     [([3.0], [-2.0])]
     """
-    return _slideway.mcp(M, q, (l, u), _options(search))
+    return _answer("mcp", search, M=M, q=q, l=l, u=u)
 
 
 @_searching
@@ -257,7 +261,7 @@ def game(A: ArrayLike, B: ArrayLike | None = None, **search: Unpack[Search]) -> 
     >>> [(solution.x.round(3).tolist(), round(solution.payoff_1, 3)) for solution in answer]
     [([0.667, 0.333], 0.667), ([1.0, 0.0], 2.0), ([0.0, 1.0], 1.0)]
     """
-    return _slideway.game(A, B, _options(search))
+    return _answer("game", search, A=A, B=B)
 
 
 @_searching
@@ -286,4 +290,13 @@ def mode_problem(
     >>> [solution.normal_forces.tolist() for solution in answer]
     [[2.0]]
     """
-    return _slideway.mode_problem(columns_positive, columns_negative, right_hand_side, jumps, _options(search))
+    positive, negative = (None, None) if jumps is None else jumps
+    return _answer(
+        "modes",
+        search,
+        columns_positive=columns_positive,
+        columns_negative=columns_negative,
+        right_hand_side=right_hand_side,
+        jumps_positive=positive,
+        jumps_negative=negative,
+    )

@@ -46,7 +46,7 @@ impl<'s> ShardReader<'s> {
             sweep,
             fields,
             next: 0,
-            pending: no_rows(layout.contacts, layout.varied.len(), width),
+            pending: Rows::new(layout.contacts, layout.varied.len(), width),
         })
     }
 
@@ -88,28 +88,11 @@ impl<'s> ShardReader<'s> {
 }
 
 /// A row of which nothing is known yet.
-const HEAD: RowHead = RowHead {
-    point: 0,
-    breakpoint: Breakpoint::No,
-    inserted: false,
-    status: PointStatus::Unknown,
-    solutions: 0,
-    gap_states: 0,
-    rejected: 0,
-    kind: RowKind::Nothing,
-    branch: 0,
-    verdict: Verdict::NotComputed,
-    negative_determinant: None,
-};
-
-fn no_rows(contacts: usize, varied: usize, width: usize) -> Rows {
-    let (heads, numbers, patterns, refusals) = Default::default();
-    Rows { contacts, varied, width, heads, numbers, patterns, refusals, points: 0 }
-}
+const HEAD: RowHead = RowHead::of_point(0, PointStatus::Unknown);
 
 /// Takes the first rows away from the others, and counts their points.
 fn first(rows: &mut Rows, count: usize) -> Rows {
-    let mut others = no_rows(rows.contacts, rows.varied, rows.width);
+    let mut others = Rows::new(rows.contacts, rows.varied, rows.width);
     others.heads = rows.heads.split_off(count);
     others.numbers = rows.numbers.split_off(count * rows.width);
     others.patterns = rows.patterns.split_off(count * rows.contacts);

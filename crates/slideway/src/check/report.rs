@@ -208,16 +208,7 @@ pub enum JointForm {
 
 impl fmt::Display for JointForm {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Hinge => "hinge",
-            Self::BlockSlider => "block slider",
-            Self::GuidedSlider => "guided slider",
-            Self::PinInSlot => "pin in slot",
-            Self::CornerOnFace => "corner on face",
-            Self::BlockOnFace => "block on face",
-            Self::DiscOnFace => "disc on face",
-            Self::DiscOnDisc => "disc on disc",
-        })
+        self.serialize(formatter)
     }
 }
 
@@ -236,11 +227,7 @@ pub enum CoordinateForm {
 
 impl fmt::Display for CoordinateForm {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        formatter.write_str(match self {
-            Self::Slide => "slide",
-            Self::Rotation => "rotation",
-            Self::Displacement => "displacement",
-        })
+        self.serialize(formatter)
     }
 }
 

@@ -76,6 +76,23 @@ pub struct Drawing {
     contacts: usize,
 }
 
+/// Declares the methods that begin a sliding joint along a line between two bodies.
+macro_rules! sliding_joints {
+    ($($(#[$about:meta])* $name:ident($block:ident, $guide:ident): $kind:ident;)+) => {
+        $(
+            $(#[$about])*
+            pub fn $name(
+                &mut self,
+                name: &str,
+                $block: impl Into<Frame>,
+                $guide: impl Into<Frame>,
+            ) -> SliderBuilder<'_, kind::$kind> {
+                SliderBuilder::new(self, name, [$block.into(), $guide.into()])
+            }
+        )+
+    };
+}
+
 impl Drawing {
     /// An empty drawing.
     pub fn new() -> Self {
@@ -130,44 +147,19 @@ impl Drawing {
         HingeBuilder::new(self, name, [first.into(), second.into()])
     }
 
-    /// A carriage, sledge or bushing with a contact at each end.
-    pub fn block_slider(
-        &mut self,
-        name: &str,
-        block: impl Into<Frame>,
-        guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, kind::Block> {
-        SliderBuilder::new(self, name, [block.into(), guide.into()])
-    }
-
-    /// A slider pressed on one side along its whole length: one normal force and a couple.
-    pub fn guided_slider(
-        &mut self,
-        name: &str,
-        block: impl Into<Frame>,
-        guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, kind::Guided> {
-        SliderBuilder::new(self, name, [block.into(), guide.into()])
-    }
-
-    /// A corner of the first body on a straight face of the second, which it may leave.
-    pub fn corner_on_face(
-        &mut self,
-        name: &str,
-        block: impl Into<Frame>,
-        guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, kind::Corner> {
-        SliderBuilder::new(self, name, [block.into(), guide.into()])
-    }
-
-    /// A disc of the first body on a straight face of the second, which it may leave.
-    pub fn disc_on_face(
-        &mut self,
-        name: &str,
-        disc: impl Into<Frame>,
-        guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, kind::Disc> {
-        SliderBuilder::new(self, name, [disc.into(), guide.into()])
+    sliding_joints! {
+        /// A carriage, sledge or bushing with a contact at each end.
+        block_slider(block, guide): Block;
+        /// A slider pressed on one side along its whole length: one normal force and a couple.
+        guided_slider(block, guide): Guided;
+        /// A corner of the first body on a straight face of the second, which it may leave.
+        corner_on_face(block, guide): Corner;
+        /// A disc of the first body on a straight face of the second, which it may leave.
+        disc_on_face(disc, guide): Disc;
+        /// A block on a straight face of the second body, which both of its corners may leave.
+        block_on_face(block, guide): OnFace;
+        /// A pin of the first body in a slot of the second: one contact.
+        pin_in_slot(pin, slot): Pin;
     }
 
     /// A disc of the first body on a disc of the second, or in a hole of it, which it may leave.
@@ -178,26 +170,6 @@ impl Drawing {
         other: impl Into<Frame>,
     ) -> SliderBuilder<'_, kind::Discs> {
         SliderBuilder::of_discs(self, name, [disc.into(), other.into()])
-    }
-
-    /// A block on a straight face of the second body, which both of its corners may leave.
-    pub fn block_on_face(
-        &mut self,
-        name: &str,
-        block: impl Into<Frame>,
-        guide: impl Into<Frame>,
-    ) -> SliderBuilder<'_, kind::OnFace> {
-        SliderBuilder::new(self, name, [block.into(), guide.into()])
-    }
-
-    /// A pin of the first body in a slot of the second: one contact.
-    pub fn pin_in_slot(
-        &mut self,
-        name: &str,
-        pin: impl Into<Frame>,
-        slot: impl Into<Frame>,
-    ) -> SliderBuilder<'_, kind::Pin> {
-        SliderBuilder::new(self, name, [pin.into(), slot.into()])
     }
 
     /// A force on a body.

@@ -319,16 +319,5 @@ pub(super) fn rows_of(value: f64, all: AllEfforts) -> Vec<CourseRow> {
 
 /// A row of a value at which nothing is known.
 pub(super) fn nothing(value: f64) -> CourseRow {
-    CourseRow {
-        at: value,
-        pattern: None,
-        attainability: None,
-        efforts: None,
-        grows: Vec::new(),
-        frictionless: None,
-        power: None,
-        efficiency: None,
-        range: None,
-        floating: None,
-    }
+    CourseRow { at: value, ..CourseRow::default() }
 }

@@ -328,7 +328,7 @@ pub struct CourseMode {
 }
 
 /// The efforts in one solution at one value.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct CourseRow {
     /// The value.

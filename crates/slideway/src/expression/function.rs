@@ -2,40 +2,68 @@
 
 use crate::interval::Real;
 
-/// A function or operator of one argument.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unary {
-    Negate,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Sqrt,
-    Abs,
-    Sign,
-    Exp,
-    Ln,
-    Log10,
-    Step,
+/// Declares operators and functions of so many arguments: the sign or the name of each in an expression, and its value, not finite
+/// outside its domain and where it overflows.
+macro_rules! functions {
+    ($(#[$about:meta])* $kind:ident($($x:ident),+): $($operator:ident $sign:literal $operated:expr),+;
+     $($member:ident $name:literal $value:expr;)+) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub(super) enum $kind {
+            $($operator,)+
+            $($member),+
+        }
+
+        impl $kind {
+            /// Those that are called by their names.
+            const NAMED: &[Self] = &[$(Self::$member),+];
+
+            pub(super) fn name(self) -> &'static str {
+                match self {
+                    $(Self::$operator => $sign,)+
+                    $(Self::$member => $name),+
+                }
+            }
+
+            /// The value, not finite outside the function's domain and where it overflows.
+            pub(super) fn value<T: Real>(self, $($x: T),+) -> T {
+                match self {
+                    $(Self::$operator => $operated,)+
+                    $(Self::$member => $value),+
+                }
+            }
+        }
+    };
 }
 
-/// A function or operator of two arguments.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Binary {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
-    Atan2,
-    Hypot,
-    Min,
-    Max,
+functions! {
+    /// A function or operator of one argument.
+    Unary(x): Negate "-" -x;
+    Sin "sin" x.sin();
+    Cos "cos" x.cos();
+    Tan "tan" x.tan();
+    Asin "asin" x.asin();
+    Acos "acos" x.acos();
+    Atan "atan" x.atan();
+    Sinh "sinh" x.sinh();
+    Cosh "cosh" x.cosh();
+    Tanh "tanh" x.tanh();
+    Sqrt "sqrt" x.sqrt();
+    Abs "abs" x.abs();
+    Sign "sign" x.sign_value();
+    Exp "exp" x.exp();
+    Ln "ln" x.ln();
+    Log10 "log10" x.log10();
+    Step "step" x.step();
+}
+
+functions! {
+    /// A function or operator of two arguments.
+    Binary(x, y): Add "+" x + y, Subtract "-" x - y, Multiply "*" x * y, Divide "/" x / y, Power "^" x.power(y);
+    Atan2 "atan2" x.atan2(y);
+    Hypot "hypot" x.hypot(y);
+    Min "min" x.min(y);
+    Max "max" x.max(y);
 }
 
 /// A function called by its name.
@@ -45,35 +73,14 @@ pub(super) enum Function {
     Binary(Binary),
 }
 
-pub(super) const FUNCTIONS: &[(&str, Function)] = &[
-    ("sin", Function::Unary(Unary::Sin)),
-    ("cos", Function::Unary(Unary::Cos)),
-    ("tan", Function::Unary(Unary::Tan)),
-    ("asin", Function::Unary(Unary::Asin)),
-    ("acos", Function::Unary(Unary::Acos)),
-    ("atan", Function::Unary(Unary::Atan)),
-    ("sinh", Function::Unary(Unary::Sinh)),
-    ("cosh", Function::Unary(Unary::Cosh)),
-    ("tanh", Function::Unary(Unary::Tanh)),
-    ("sqrt", Function::Unary(Unary::Sqrt)),
-    ("abs", Function::Unary(Unary::Abs)),
-    ("sign", Function::Unary(Unary::Sign)),
-    ("exp", Function::Unary(Unary::Exp)),
-    ("ln", Function::Unary(Unary::Ln)),
-    ("log10", Function::Unary(Unary::Log10)),
-    ("step", Function::Unary(Unary::Step)),
-    ("atan2", Function::Binary(Binary::Atan2)),
-    ("hypot", Function::Binary(Binary::Hypot)),
-    ("min", Function::Binary(Binary::Min)),
-    ("max", Function::Binary(Binary::Max)),
-];
-
-pub(super) fn find(name: &str) -> Option<Function> {
-    FUNCTIONS.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
+/// All functions, each with its name.
+pub(super) fn named() -> impl Iterator<Item = (&'static str, Function)> {
+    let unary = Unary::NAMED.iter().map(|function| (function.name(), Function::Unary(*function)));
+    unary.chain(Binary::NAMED.iter().map(|function| (function.name(), Function::Binary(*function))))
 }
 
-fn name_of(function: Function) -> &'static str {
-    FUNCTIONS.iter().find(|(_, known)| *known == function).map_or("", |(name, _)| name)
+pub(super) fn find(name: &str) -> Option<Function> {
+    named().find(|(known, _)| *known == name).map(|(_, function)| function)
 }
 
 impl Function {
@@ -91,66 +98,6 @@ impl Function {
             Self::Unary(_) => "one argument",
             Self::Binary(Binary::Min | Binary::Max) => "two or more arguments",
             Self::Binary(_) => "two arguments",
-        }
-    }
-}
-
-impl Unary {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Negate => "-",
-            named => name_of(Function::Unary(named)),
-        }
-    }
-
-    /// The value at `x`; not finite outside the function's domain and where it overflows.
-    pub(super) fn value<T: Real>(self, x: T) -> T {
-        match self {
-            Self::Negate => -x,
-            Self::Sin => x.sin(),
-            Self::Cos => x.cos(),
-            Self::Tan => x.tan(),
-            Self::Asin => x.asin(),
-            Self::Acos => x.acos(),
-            Self::Atan => x.atan(),
-            Self::Sinh => x.sinh(),
-            Self::Cosh => x.cosh(),
-            Self::Tanh => x.tanh(),
-            Self::Sqrt => x.sqrt(),
-            Self::Abs => x.abs(),
-            Self::Sign => x.sign_value(),
-            Self::Exp => x.exp(),
-            Self::Ln => x.ln(),
-            Self::Log10 => x.log10(),
-            Self::Step => x.step(),
-        }
-    }
-}
-
-impl Binary {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Self::Add => "+",
-            Self::Subtract => "-",
-            Self::Multiply => "*",
-            Self::Divide => "/",
-            Self::Power => "^",
-            named => name_of(Function::Binary(named)),
-        }
-    }
-
-    /// The value at `x` and `y`; not finite outside the function's domain and where it overflows.
-    pub(super) fn value<T: Real>(self, x: T, y: T) -> T {
-        match self {
-            Self::Add => x + y,
-            Self::Subtract => x - y,
-            Self::Multiply => x * y,
-            Self::Divide => x / y,
-            Self::Power => x.power(y),
-            Self::Atan2 => x.atan2(y),
-            Self::Hypot => x.hypot(y),
-            Self::Min => x.min(y),
-            Self::Max => x.max(y),
         }
     }
 }

@@ -4,7 +4,7 @@ use crate::printable::is_hidden;
 use slideway_modes::names::all_nearest;
 use std::collections::HashMap;
 
-use super::function::{self, FUNCTIONS};
+use super::function;
 use super::table::Table;
 use std::sync::Arc;
 
@@ -104,7 +104,7 @@ impl Names {
     /// The function or table most like `name`, if one is like it at all.
     pub(super) fn nearest_function(&self, name: &str) -> Option<&str> {
         let tables = self.tables.iter().map(|table| &*table.name);
-        let callable = FUNCTIONS.iter().map(|(known, _)| *known).chain([RATE]).chain(tables);
+        let callable = function::named().map(|(known, _)| known).chain([RATE]).chain(tables);
         all_nearest(name, callable).first().copied()
     }
 

@@ -1,6 +1,6 @@
 //! The shape of a model file: one type for each table, from which both the reader and the JSON Schema come.
 //!
-//! The doc comments of this file, and those of `schema.rs`, are what an editor shows for each key.
+//! The doc comments of this file, and those of `test_schema.rs`, are what an editor shows for each key.
 //! `schema.json` is what they give; a test holds it to them.
 
 use super::quantity::{Components, Direction, InSpace, Name, OutlinePlace, PerSide, Place, Quantity, Span};
@@ -163,7 +163,7 @@ pub enum PinLaw {
     MuRho,
 }
 
-/// A sliding joint: what the tables of all three kinds may have between them. `schema.rs` says which has what.
+/// A sliding joint: what the tables of all three kinds may have between them. `test_schema.rs` says which has what.
 #[derive(Deserialize)]
 #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
 pub(super) struct SliderTable {
@@ -174,18 +174,18 @@ pub(super) struct SliderTable {
     /// Middle of the block on the guide's centre line, or the pin, in the drawing: a point's name or [x, y].
     #[serde(alias = "centre")]
     pub(super) at: Place,
-    /// The radius of a disc, which `schema.rs` has.
+    /// The radius of a disc, which `test_schema.rs` has.
     #[cfg_attr(test, schemars(skip))]
     pub(super) radius: Option<Quantity>,
-    /// What touches, which `schema.rs` has.
+    /// What touches, which `test_schema.rs` has.
     #[cfg_attr(test, schemars(skip))]
     pub(super) closed: Option<Closed>,
-    /// Whether it slips, which `schema.rs` has.
+    /// Whether it slips, which `test_schema.rs` has.
     #[cfg_attr(test, schemars(skip))]
     pub(super) sticks: Option<bool>,
     /// Direction of positive sliding: an angle from the x axis, or two points `["from", "to"]`.
     pub(super) along: Option<Direction>,
-    /// The ends of a face, which `schema.rs` has.
+    /// The ends of a face, which `test_schema.rs` has.
     #[cfg_attr(test, schemars(skip))]
     pub(super) face: Option<[Name; 2]>,
     /// Distance of the two contacts of a block in the drawing; for a guided slider the length of the pressed face: its
@@ -205,10 +205,10 @@ pub(super) struct SliderTable {
     /// }. Default: the motion ends there.
     pub(super) stop: Option<StopTable>,
     /// The contact at the end in the direction of `along`: what differs there.
-    #[cfg_attr(test, schemars(with = "Option<super::schema::EndTable>"))]
+    #[cfg_attr(test, schemars(with = "Option<super::test_schema::EndTable>"))]
     pub(super) front: Option<ContactTable>,
     /// The contact at the other end: what differs there.
-    #[cfg_attr(test, schemars(with = "Option<super::schema::EndTable>"))]
+    #[cfg_attr(test, schemars(with = "Option<super::test_schema::EndTable>"))]
     pub(super) rear: Option<ContactTable>,
     /// What it carries out of the drawing without friction, such as ball rails: any of "z", "roll" and "pitch".
     /// Default: nothing but what its contacts carry.
@@ -217,7 +217,7 @@ pub(super) struct SliderTable {
     pub(super) rests_on: Option<RestsOnTable>,
     /// Further contacts by their names, such as `middle = { at = "20 mm" }`: they are redundant, and share the load
     /// by play, stiffness and misalignment.
-    #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::schema::SupportTable>>"))]
+    #[cfg_attr(test, schemars(with = "Option<BTreeMap<String, super::test_schema::SupportTable>>"))]
     pub(super) supports: Option<BTreeMap<String, ContactTable>>,
 }
 
@@ -359,10 +359,10 @@ pub(super) struct StopTable {
     /// Damping coefficient of the pad (N s/m). Default: 0.
     pub(super) damping: Option<Quantity>,
     /// The stop at the least displacement.
-    #[cfg_attr(test, schemars(with = "Option<super::schema::StopAtEndTable>"))]
+    #[cfg_attr(test, schemars(with = "Option<super::test_schema::StopAtEndTable>"))]
     pub(super) least: Option<Box<StopTable>>,
     /// The stop at the greatest displacement.
-    #[cfg_attr(test, schemars(with = "Option<super::schema::StopAtEndTable>"))]
+    #[cfg_attr(test, schemars(with = "Option<super::test_schema::StopAtEndTable>"))]
     pub(super) greatest: Option<Box<StopTable>>,
 }
 

@@ -32,7 +32,7 @@
 //!
 //! # Files
 //! `file.rs` has one type for each table of the file, `quantity.rs` the kinds of value, `schema.json` is what
-//! both give (`schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
+//! both give (`test_schema.rs` tests it), `structure.rs` checks a parsed file against it, `sections.rs`
 //! deserializes entry by entry, `read/` resolves names, `check.rs` judges the whole, `bare.rs` tells which dimension numbers without a unit have, `value.rs` is what is
 //! given, `settings.rs` applies changes, `hinge.rs` has hinges and their friction, `press_fit.rs` splits contacts with negative play, `typed.rs` tells in which units a file was typed, `outline.rs`
 //! has the arcs of outlines.
@@ -48,12 +48,12 @@ mod press_fit;
 mod quantity;
 mod range;
 mod read;
-#[cfg(test)]
-mod schema;
 mod sections;
 mod settings;
 mod stop;
 mod structure;
+#[cfg(test)]
+mod test_schema;
 mod typed;
 mod value;
 

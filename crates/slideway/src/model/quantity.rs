@@ -283,32 +283,14 @@ impl<'de> Either<'de> for Gravity {
     }
 }
 
-impl<'de> Deserialize<'de> for Place {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserialize_either(deserializer)
-    }
+macro_rules! either_of_its_forms {
+    ($($name:ty),+) => {
+        $(impl<'de> Deserialize<'de> for $name {
+            fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+                deserialize_either(deserializer)
+            }
+        })+
+    };
 }
 
-impl<'de> Deserialize<'de> for OutlinePlace {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserialize_either(deserializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Direction {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserialize_either(deserializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for PerSide {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserialize_either(deserializer)
-    }
-}
-
-impl<'de> Deserialize<'de> for Gravity {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserialize_either(deserializer)
-    }
-}
+either_of_its_forms!(Place, OutlinePlace, Direction, PerSide, Gravity);

@@ -3,7 +3,7 @@
 use super::mode_problem::ProblemData;
 use super::stages::Stages;
 use super::state::{pattern, signs};
-use super::upright::{Upright, upright};
+use super::upright::{FALLING, GROWING, Upright, upright};
 use crate::enclosure::EnclosedModeProblem;
 use crate::interval::{Interval, Sign};
 use crate::mechanism::Mechanism;
@@ -22,10 +22,6 @@ use crate::report::{
 
 /// The most patterns for which margins are computed.
 pub(super) const PATTERNS: u64 = 256;
-/// From the present friction without end, as a factor.
-pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
-/// From no friction to that of the model, as a factor.
-pub(crate) const FALLING: [f64; 2] = [0.0, 1.0];
 /// Ends closer to the present friction than this belong to it: the state is on a boundary.
 pub(crate) const AT_ONCE: f64 = 1e-9;
 

@@ -54,7 +54,7 @@ pub(crate) use blocks::{
 };
 pub(crate) use friction::friction;
 pub use locking::{Locking, locking};
-pub(crate) use margins::{AT_ONCE, FALLING, GROWING, common_coefficient, last_change};
+pub(crate) use margins::{AT_ONCE, common_coefficient, last_change};
 pub(crate) use mode_problem::{ProblemData, Sliding, sides, sliding_signs};
 pub use mode_problem::{mode_problem, velocity_signs};
 pub(crate) use parts::Parts;
@@ -66,7 +66,9 @@ pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::{certain_counts, counted};
-pub(crate) use upright::{Ends, Upright, distinct, ends_above, ends_below, tips_beyond, upright};
+pub(crate) use upright::{
+    Ends, FALLING, GROWING, Upright, distinct, ends_above, ends_below, tips_beyond, upright,
+};
 pub(crate) use words::joint_mode;
 pub use words::mode_in_words;
 

@@ -1,8 +1,12 @@
 //! How far a mechanism is from tipping as friction grows.
 
-use super::margins::{FALLING, GROWING};
 use crate::mechanism::Mechanism;
 use crate::modes::existence::{EndCause, Existence, ModeEnd, ModeInterval, is_same_end};
+
+/// From the present friction without end, as a factor.
+pub(crate) const GROWING: [f64; 2] = [1.0, f64::INFINITY];
+/// From no friction to that of the model, as a factor.
+pub(crate) const FALLING: [f64; 2] = [0.0, 1.0];
 
 /// How far friction may change before something tips or it jams: a block that may lift off keeps all of its corners on its
 /// face, or none.

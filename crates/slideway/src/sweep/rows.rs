@@ -122,6 +122,23 @@ pub struct RowHead {
 }
 
 impl RowHead {
+    /// The row of a point of which nothing else is known.
+    pub const fn of_point(point: u64, status: PointStatus) -> Self {
+        Self {
+            point,
+            breakpoint: Breakpoint::No,
+            inserted: false,
+            status,
+            solutions: 0,
+            gap_states: 0,
+            rejected: 0,
+            kind: RowKind::Nothing,
+            branch: 0,
+            verdict: Verdict::NotComputed,
+            negative_determinant: None,
+        }
+    }
+
     /// The sign of the determinant of the mode in tables; nothing if it is not known.
     pub fn determinant_sign(&self) -> &'static str {
         self.negative_determinant.map_or("", |is_negative| if is_negative { "-" } else { "+" })
@@ -140,7 +157,7 @@ pub struct Refusal {
 }
 
 /// Rows of neighbouring points, in their order.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Rows {
     /// Contacts of the mechanism.
     pub contacts: usize,
@@ -162,17 +179,8 @@ pub struct Rows {
 
 impl Rows {
     /// No rows yet.
-    pub(super) fn new(contacts: usize, varied: usize, width: usize) -> Self {
-        Self {
-            contacts,
-            varied,
-            width,
-            heads: Vec::new(),
-            numbers: Vec::new(),
-            patterns: Vec::new(),
-            refusals: Vec::new(),
-            points: 0,
-        }
+    pub fn new(contacts: usize, varied: usize, width: usize) -> Self {
+        Self { contacts, varied, width, ..Self::default() }
     }
 
     /// Number of rows.

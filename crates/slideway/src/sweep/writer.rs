@@ -219,17 +219,6 @@ pub(super) fn number_in_modes(plan: &Plan, first: usize, rows: &mut Rows) {
 
 /// The row of a point of which nothing else is known.
 pub(super) fn head(point: Point<'_>, status: PointStatus) -> RowHead {
-    RowHead {
-        point: point.number,
-        breakpoint: point.breakpoint,
-        inserted: point.inserted,
-        status,
-        solutions: 0,
-        gap_states: 0,
-        rejected: 0,
-        kind: RowKind::Nothing,
-        branch: 0,
-        verdict: Verdict::NotComputed,
-        negative_determinant: None,
-    }
+    let Point { number, breakpoint, inserted, .. } = point;
+    RowHead { breakpoint, inserted, ..RowHead::of_point(number, status) }
 }

@@ -206,7 +206,7 @@ pub(super) fn assess_system(system: &System<'_>) -> Result<Assessment, Unsolved>
     };
     let margins = found.slacks.iter().filter(sticks).map(|slack| slack.value);
     found.margin = margins.fold(f64::INFINITY, f64::min);
-    system.write_forces(&open, &mut found);
+    system.write_forces(&open, &mut found.forces, &mut found.phase);
     Ok(found)
 }
 

@@ -1,6 +1,5 @@
 //! One pattern of sticking and slipping joints and of sides, as linear equations and inequalities.
 
-use super::assessment::Assessment;
 use super::instant::Instant;
 use super::joints::SlidingJoint;
 use super::outputs::{Group, Outputs};
@@ -396,8 +395,7 @@ impl<'s> System<'s> {
     }
 
     /// Adds the forces of this group to those of all contacts and hinges.
-    pub(super) fn write_forces(&self, z: &[f64], found: &mut Assessment) {
-        let forces = &mut found.forces;
+    pub(super) fn write_forces(&self, z: &[f64], forces: &mut Forces, phase: &mut Phase) {
         for (k, friction) in self.contacts() {
             let [positive_face, negative_face] = friction.faces.each_ref().map(|face| self.value(face, z));
             forces.frictions[k] = ContactFriction { positive_face, negative_face };
@@ -414,8 +412,7 @@ impl<'s> System<'s> {
         for &(hinge, couple) in &self.couples {
             forces.couples[hinge] = self.value(&AffineExpression::unknown(couple, 1.0), z);
             let unit = self.instant.hinges[hinge].units.force;
-            found.phase.hinges[hinge].force =
-                self.force(hinge).map(|component| self.value(&component, z) * unit);
+            phase.hinges[hinge].force = self.force(hinge).map(|component| self.value(&component, z) * unit);
         }
     }
 }

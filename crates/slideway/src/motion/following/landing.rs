@@ -1,22 +1,13 @@
 //! Contacts that may lift off and reach their faces along a motion, and sliding joints that reach their end stops.
 
-use super::run::Run;
+use super::run::{Run, stop_at};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::mechanism::{EndStop, Mechanism};
-use crate::model::Stop;
 use crate::motion::decision::{FaceBlow, Landing, landing};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::Equations;
-
-/// The displacement at which a joint has a stop at an end of its travel (m); none if the motion ends there.
-pub(super) fn stop_at(mechanism: &Mechanism, EndStop { joint, greatest }: EndStop) -> Option<f64> {
-    let slider = mechanism.slider(joint)?;
-    let end = usize::from(greatest);
-    slider.stops[end].and_then(Stop::restitution)?;
-    slider.travel.map(|travel| travel[end])
-}
 
 impl Run<'_, '_> {
     /// Returns whether a contact reaches the line of its face beyond its ends.

@@ -1,11 +1,11 @@
 //! The loop: a phase, an event, a decision, and so on.
 
-use super::landing::stop_at;
 use super::smooth::{Ended, Smooth};
 use crate::configuration::Configuration;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::{EndStop, Mechanism};
+use crate::model::Stop;
 use crate::motion::decision::rules::{Continuation, Continuations, Decisions, EventInstant, HaltingImpulse};
 use crate::motion::moving::cause::Cause;
 use crate::motion::moving::equations::{Drift, Equations, Failure};
@@ -30,6 +30,14 @@ const BEFORE_THE_END: f64 = 1e-3;
 
 /// Solutions whose hinge forces have directions with cosines this close to 1 are those that meet at a fold.
 const NEAR_FOLD: f64 = 1e-4;
+
+/// The displacement at which a joint has a stop at an end of its travel (m); none if the motion ends there.
+pub(super) fn stop_at(mechanism: &Mechanism, EndStop { joint, greatest }: EndStop) -> Option<f64> {
+    let slider = mechanism.slider(joint)?;
+    let end = usize::from(greatest);
+    slider.stops[end].and_then(Stop::restitution)?;
+    slider.travel.map(|travel| travel[end])
+}
 
 /// A simulation under way.
 pub(in crate::motion) struct Run<'a, 'm> {

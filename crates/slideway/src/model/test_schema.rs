@@ -234,11 +234,6 @@ impl JsonSchema for Quantity {
     }
 }
 
-/// Schema of a value that is either of two forms.
-fn either_schema(first: &Schema, second: &Schema) -> Schema {
-    json_schema!({ "anyOf": [first, second] })
-}
-
 impl JsonSchema for InSpace {
     fn inline_schema() -> bool {
         true
@@ -256,49 +251,28 @@ impl JsonSchema for InSpace {
     }
 }
 
-impl JsonSchema for Place {
-    fn schema_name() -> Cow<'static, str> {
-        "Place".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Name>(), &generator.subschema_for::<InSpace>())
-    }
+/// Values that are either of two forms.
+macro_rules! either {
+    ($($name:ident: $first:ty, $second:ty;)+) => {
+        $(impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                json_schema!({
+                    "anyOf": [generator.subschema_for::<$first>(), generator.subschema_for::<$second>()]
+                })
+            }
+        })+
+    };
 }
 
-impl JsonSchema for OutlinePlace {
-    fn schema_name() -> Cow<'static, str> {
-        "OutlinePlace".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Place>(), &generator.subschema_for::<Through>())
-    }
-}
-
-impl JsonSchema for Direction {
-    fn schema_name() -> Cow<'static, str> {
-        "Direction".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<[Name; 2]>())
-    }
-}
-
-impl JsonSchema for PerSide {
-    fn schema_name() -> Cow<'static, str> {
-        "PerSide".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<Sides>())
-    }
-}
-
-impl JsonSchema for Gravity {
-    fn schema_name() -> Cow<'static, str> {
-        "Gravity".into()
-    }
-    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        either_schema(&generator.subschema_for::<Quantity>(), &generator.subschema_for::<InSpace>())
-    }
+either! {
+    Place: Name, InSpace;
+    OutlinePlace: Place, Through;
+    Direction: Quantity, [Name; 2];
+    PerSide: Quantity, Sides;
+    Gravity: Quantity, InSpace;
 }
 
 #[test]
