@@ -68,8 +68,8 @@ mod tests {
     /// An orthogonal matrix with many entries: the spectral radius of their sizes is 4.
     #[test]
     fn the_norm_of_a_rotation_is_below_one_exactly_if_its_factor_is() {
-        let entry =
-            |row: usize, column: usize| if (row & column).count_ones() % 2 == 0 { 0.25 } else { -0.25 };
+        let is_even = |row: usize, column: usize| (row & column).count_ones().is_multiple_of(2);
+        let entry = |row, column| if is_even(row, column) { 0.25 } else { -0.25 };
         let times = |factor: f64| DMatrix::from_fn(16, 16, |row, column| factor * entry(row, column));
         let is_below = |factor: f64, width: f64| {
             let radius = DMatrix::repeat(16, 16, width);
