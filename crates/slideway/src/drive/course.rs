@@ -86,7 +86,9 @@ fn tips(found: &ModesFound, mechanism: &Mechanism, [from, to]: [f64; 2]) -> Vec<
     let of = |mode| {
         ways.map(|(above, ends, way)| {
             let end = ends(mode)[1];
-            let joints = tips_beyond((&found.existence, mechanism), (end.at, &end.cause), ends, way);
+            let is_same = |greater, smaller| found.same_ends.are_one(smaller, greater);
+            let joints =
+                tips_beyond((&found.existence, mechanism), (end.at, &end.cause), (ends, way), &is_same);
             TipsAt { at: found.same_ends.told(end.at), above, joints }
         })
     };

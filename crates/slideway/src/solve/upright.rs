@@ -29,7 +29,12 @@ impl Upright {
     pub(crate) fn below(existence: &Existence, mechanism: &Mechanism) -> Option<Self> {
         let at_once = Self {
             until: FALLING[1],
-            tips: tips_beyond((existence, mechanism), (FALLING[1], &EndCause::Range), ends_below, -1.0),
+            tips: tips_beyond(
+                (existence, mechanism),
+                (FALLING[1], &EndCause::Range),
+                (ends_below, -1.0),
+                &is_same_end,
+            ),
         };
         let below = Self::towards(existence, mechanism, ends_below, -1.0);
         below.or(Some(at_once)).filter(|upright| upright.until > FALLING[0])
@@ -49,7 +54,9 @@ impl Upright {
         let there = modes.into_iter().map(|mode| ends(mode)[1]);
         let there = there.filter(|end| is_same_end(until.max(end.at), until.min(end.at)));
         let tips = there
-            .flat_map(|end| tips_beyond((existence, mechanism), (until, &end.cause), ends, way))
+            .flat_map(|end| {
+                tips_beyond((existence, mechanism), (until, &end.cause), (ends, way), &is_same_end)
+            })
             .collect();
         Some(Self { until, tips: distinct(tips) })
     }
@@ -84,19 +91,20 @@ pub(crate) fn upright<'e>(
 }
 
 /// The joints that tip just beyond a place where a mode ends in which nothing tips, up (1) or down (-1): the guided sliders that
-/// end it, else what tips in the modes that go on. None where nothing goes on, as it jams, and where something else does.
+/// end it, else what tips in the modes that go on. None where nothing goes on, as it jams, and where something else does. `is_same` of
+/// the greater and the smaller of two ends says whether they are one.
 pub(crate) fn tips_beyond(
     (existence, mechanism): (&Existence, &Mechanism),
     (at, cause): (f64, &EndCause),
-    ends: Ends,
-    way: f64,
+    (ends, way): (Ends, f64),
+    is_same: &dyn Fn(f64, f64) -> bool,
 ) -> Vec<String> {
     if let EndCause::OutputBound(bounds) = cause {
         return mechanism.guided_sliders(bounds);
     }
     let goes_on = |mode: &&ModeInterval| {
         let [near, far] = ends(mode).map(|end| end.at);
-        let is_at = |end: f64| is_same_end(end.max(at), end.min(at));
+        let is_at = |end: f64| is_same(end.max(at), end.min(at));
         (way * near <= way * at || is_at(near)) && way * far > way * at && !is_at(far)
     };
     let tipped: Vec<_> =
