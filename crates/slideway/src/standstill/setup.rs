@@ -203,7 +203,7 @@ impl Setup {
             }
             // What a unit of friction does on its way is the rate at which the joint rubs.
             Some(circle) => {
-                row.tr_copy_from(&self.assembled.couples[circle].rows(0, self.equations_of_motion()))
+                row.tr_copy_from(&self.assembled.couples[circle].rows(0, self.equations_of_motion()));
             }
         }
         row
