@@ -481,6 +481,10 @@ pub enum FaultKind {
     #[error("{joint}: {what} is not known in space")]
     JointInSpace { joint: String, what: &'static str },
     #[error(
+        "{joint} has friction and carries couples out of the drawing, which press each of its bearings in a way of its own"
+    )]
+    RoughAndTilted { joint: String },
+    #[error(
         "what {} carry out of the drawing is not determined: {excess} of their reactions {} too many",
         listed(joints), if *excess == 1 { "is" } else { "are" }
     )]
@@ -833,6 +837,9 @@ impl FaultKind {
                 "give it `shape = { box = [width, height, depth] }` in place of `moment_of_inertia`"
             }
             Self::Corners { .. } => "for others write `supports` with `normal = \"90 deg\"`",
+            Self::RoughAndTilted { .. } => {
+                "give each bearing a hinge of its own on the same pin, at its height: `carries = \"nothing\"`, and for one of them `\"z\"`, a force without friction"
+            }
             Self::JointInSpace { .. } => {
                 "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `rests_on`, `one_sided`, `carries`, `moments`, `products_of_inertia`"
             }

@@ -5,7 +5,7 @@ use crate::dense::singular_values;
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::ContactId;
 use crate::mechanism::Mechanism;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 impl Assembled<f64> {
     /// The normal forces of the self-stresses: a row for each contact, a column for each cut one, whose own normal
@@ -49,9 +49,7 @@ impl Assembled<f64> {
             }
             kept.iter().position(|column| *column == at).map(|row| answer[(row, stress)])
         };
-        let row =
-            |k: usize| DVector::from_fn(cut.len(), |stress, _| force(k, stress).unwrap_or(0.0)).transpose();
-        Ok(DMatrix::from_rows(&(0..mechanism.contacts.len()).map(row).collect::<Vec<_>>()))
+        Ok(DMatrix::from_fn(mechanism.contacts.len(), cut.len(), |k, stress| force(k, stress).unwrap_or(0.0)))
     }
 }
 

@@ -103,8 +103,8 @@ impl Mechanism {
         }
     }
 
-    /// The rows of the joint equations, in their order, those of what sticks last. Rotations are taken first: they are the
-    /// same in every position.
+    /// The rows of the joint equations in the drawing, in their order, those of what sticks last. Rotations are taken first: they
+    /// are the same in every position.
     fn position_rows(&self) -> Vec<Row> {
         let mut rows = Vec::new();
         for joint in &self.joints {
@@ -120,7 +120,7 @@ impl Mechanism {
             }
         }
         rows.extend(self.sticking().map(|(_, slider)| self.sticking_row(slider)));
-        rows
+        rows.iter().map(|row| row.within(3 * self.bodies.len())).collect()
     }
 
     /// The rows of hinges and rotation locks, which are taken first, and of the contacts.

@@ -115,9 +115,15 @@ impl Mechanism {
         }
         let mut faults = Faults::default();
         for (index, joint) in self.joints.iter().enumerate() {
-            if let Some(what) = self.not_in_space(index, joint) {
-                let kind = FaultKind::JointInSpace { joint: joint.name.to_string(), what };
-                faults.push(Fault::new(kind, joint.place.clone()));
+            let circle = self.friction_circles.iter().find(|circle| circle.joint.index() == index);
+            let name = joint.name.to_string();
+            if let Some(what) = self.not_in_space(joint) {
+                faults.push(Fault::new(FaultKind::JointInSpace { joint: name, what }, joint.place.clone()));
+            } else if circle.is_some_and(|circle| circle.end.is_none() && circle.is_rough())
+                && joint.carries[1..] != [false; 2]
+            {
+                // Couples press its bearings, each in its own way; a force along z is carried without friction.
+                faults.push(Fault::new(FaultKind::RoughAndTilted { joint: name }, joint.place.clone()));
             }
         }
         faults.or(())?;
@@ -157,13 +163,9 @@ impl Mechanism {
     }
 
     /// What of a joint is not known in space, if something is not.
-    fn not_in_space(&self, index: usize, joint: &Joint) -> Option<&'static str> {
+    fn not_in_space(&self, joint: &Joint) -> Option<&'static str> {
         match &joint.kind {
             JointKind::Hinge(ends) => {
-                let circle = self.friction_circles.iter().find(|circle| circle.joint.index() == index);
-                if circle.is_some_and(super::FrictionCircle::is_rough) && joint.carries != [false; 3] {
-                    return Some("friction of a hinge that carries forces out of the drawing");
-                }
                 (ends[0].z != ends[1].z).then_some("a hinge between points at different heights")
             }
             JointKind::Slider(slider) => self.slider_not_in_space(slider),

@@ -650,7 +650,9 @@ fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool
                 pair.sort();
             }
             let at = |hinge: &super::Hinge| place(hinge.between[0].position);
-            frames[0] == frames[1] && at(a).is_some() && at(a) == at(b)
+            // At another height it is a bearing of the same pin.
+            let height = |hinge: &super::Hinge| hinge.between[0].z.map_or(Some(0.0), |z| values[z.index()]);
+            frames[0] == frames[1] && at(a).is_some() && at(a) == at(b) && height(a) == height(b)
         }
         (JointKind::Slider(a), JointKind::Slider(b)) => {
             let direction = |along: &Along| match along {

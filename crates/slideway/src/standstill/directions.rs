@@ -87,7 +87,8 @@ fn directions_while(setup: &Setup, open: &[usize]) -> Vec<Direction> {
 /// How each sliding joint and hinge with friction moves with the bodies, in units in which motions are of order one.
 fn rows(setup: &Setup) -> Vec<RowDVector<f64>> {
     let sliders = setup.sliders.len();
-    let row = |joint: usize| setup.row(joint) / if joint < sliders { setup.units.length } else { 1.0 };
+    let lever = |joint: usize| joint.checked_sub(sliders).map_or(1.0, |circle| setup.lever(circle));
+    let row = |joint: usize| setup.row(joint) / (setup.units.length / lever(joint));
     (0..sliders + setup.mechanism.friction_circles.len()).map(row).collect()
 }
 

@@ -5,7 +5,7 @@ use super::setup::Setup;
 use super::state::State;
 use crate::ids::{DriveId, JointId};
 use crate::kinetics::Reaction;
-use crate::mechanism::{Effort, Mechanism};
+use crate::mechanism::{Effort, FrictionCircle, Mechanism};
 use crate::pattern::{AffineExpression, GuidedCouple, Region, Unsolved};
 
 /// The range of an expression in a region of a state, in this unit.
@@ -83,9 +83,20 @@ fn contact(
         name: setup.mechanism.contacts[k].name.to_string(),
         normal_force: range(state, region, &state.normal_force(k), unit)?,
         normal_force_parts: Vec::new(),
-        friction_force: range(state, region, &state.friction_force(k), unit)?,
+        friction_force: range(state, region, &friction_force(setup, state, k), unit)?,
         couple,
     })
+}
+
+/// The friction of a contact; of a round end that of both of its contacts, at the one along n. What is counted of a friction
+/// circle acts on the block along u.
+fn friction_force(setup: &Setup, state: &State<'_>, k: usize) -> AffineExpression {
+    let circles = &setup.mechanism.friction_circles;
+    let of_end = |circle: &FrictionCircle| circle.end.is_some_and(|[along_n, _]| along_n.index() == k);
+    match circles.iter().position(of_end) {
+        Some(circle) => state.friction_couple(circle).times(-1.0),
+        None => state.friction_force(k),
+    }
 }
 
 /// On ground the force is of no interest: it is counted on the body then.

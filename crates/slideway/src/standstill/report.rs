@@ -299,7 +299,7 @@ pub struct ContactRange {
     /// The parts of that range in which it can lie; absent where no value between is impossible.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub normal_force_parts: Vec<Range>,
-    /// Friction force on the block, against u (N).
+    /// Friction force on the block, against u (N); of a round end that of both of its contacts, at the one along n.
     pub friction_force: Range,
     /// Couple of a guided slider (N m).
     pub couple: Option<Range>,

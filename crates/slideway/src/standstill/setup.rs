@@ -6,7 +6,7 @@ use crate::configuration::{Configuration, free_motions, null_space};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::{ContactId, DriveId, JointId};
 use crate::kinetics::{Assembled, Reaction};
-use crate::mechanism::{Attachment, Effort, FrictionCircle, Mechanism, Quantity, Slider};
+use crate::mechanism::{Effort, Mechanism, Quantity, Slider};
 use crate::model::{Model, SliderKind};
 use crate::modes::SharedLoad;
 use crate::pattern::{GuidedCouple, Law};
@@ -91,7 +91,6 @@ impl Setup {
         let original = at_rest(Mechanism::new(model)?);
         // What tips out of the drawing slides otherwise at each of its contacts.
         original.check_planar("rest on contacts that may lift off", original.one_sided())?;
-        original.check_planar("rest on a round rod", original.ends())?;
         original.check_size()?;
         let configuration = Configuration::with_progress(&original, &mut |told| work.tell(told))?;
         let mut mechanism = original.clone();
@@ -156,10 +155,16 @@ impl Setup {
         self.shared.as_ref().is_some_and(|shared| shared.shares(k))
     }
 
-    /// Coulomb's law of a contact in the units of the programs; its static coefficients may be varied.
+    /// Coulomb's law of a contact in the units of the programs; its static coefficients may be varied. What rubs at a round end
+    /// is in its friction circle.
     pub(super) fn law(&self, k: usize) -> Law {
         let contact = &self.mechanism.contacts[k];
-        Law::new(&self.mechanism, (k, contact), (self.units.force, true), [true; 2])
+        Law::new(
+            &self.mechanism,
+            (k, contact),
+            (self.units.force, true),
+            [!self.mechanism.is_part_of_end(k); 2],
+        )
     }
 
     /// What weights and loads put into the equations of motion, the varied load with its nominal factor.
@@ -168,13 +173,16 @@ impl Setup {
         varied.map_or_else(|| self.given.clone(), |varied| &self.given + varied)
     }
 
-    /// The place of the moment that a couple exerts on each body of a hinge among the equations of motion, and its sign;
-    /// the couple is counted on the first body.
-    pub(super) fn couple(&self, circle: &FrictionCircle) -> impl Iterator<Item = (usize, f64)> {
-        let ends = self.mechanism.hinge(circle.joint).map(|[first, second]| [(first, 1.0), (second, -1.0)]);
-        let on_body =
-            |(end, sign): (&Attachment, f64)| end.frame.body().map(|body| (3 * body.index() + 2, sign));
-        ends.into_iter().flatten().filter_map(on_body)
+    /// The unit of length of what a friction circle has: couples and radii of hinges; 1 for the forces and coefficients of
+    /// round ends.
+    pub(super) fn lever(&self, circle: usize) -> f64 {
+        if self.mechanism.friction_circles[circle].end.is_some() { 1.0 } else { self.units.length }
+    }
+
+    /// The place of a component of the force of a friction circle in the layout of the kinetic equations.
+    pub(super) fn force_of(&self, circle: usize, component: usize) -> usize {
+        let force = self.mechanism.friction_circles[circle].reactions()[component];
+        self.assembled.layout.reaction(force).expect("every circle has a force")
     }
 
     /// The acceleration of a sliding joint or hinge with friction, by its number among these, as a row of those of the
@@ -191,10 +199,9 @@ impl Setup {
                     }
                 }
             }
-            Some(hinge) => {
-                for (column, sign) in self.couple(&self.mechanism.friction_circles[hinge]) {
-                    row[column] += sign;
-                }
+            // What a unit of friction does on its way is the rate at which the joint rubs.
+            Some(circle) => {
+                row.tr_copy_from(&self.assembled.couples[circle].rows(0, self.equations_of_motion()));
             }
         }
         row

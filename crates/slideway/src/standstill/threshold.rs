@@ -27,7 +27,7 @@ use super::state::{Pattern, State, StateQuestion, StaticFriction, sides};
 use super::{HoldOptions, with_inertia};
 use crate::fault::{Fault, FaultKind, Faults, nearest};
 use crate::ids::FormulaId;
-use crate::mechanism::FrictionCircle;
+use crate::mechanism::{FrictionCircle, Mechanism};
 use crate::model::{FRICTION, Model};
 use crate::pattern::Unsolved;
 use crate::progress::{Progress, Work};
@@ -65,9 +65,20 @@ impl Law {
         self.lines.iter().map(|sides| sides.map(|line| on(line, value))).collect()
     }
 
+    /// The same, of both contacts of a round end that of the end.
+    fn with_ends(&self, mechanism: &Mechanism, value: f64) -> Vec<[f64; 2]> {
+        let mut coefficients = self.coefficients(value);
+        for (circle, line) in mechanism.friction_circles.iter().zip(&self.hinges) {
+            for contact in circle.end.into_iter().flatten() {
+                coefficients[contact.index()] = [on(*line, value); 2];
+            }
+        }
+        coefficients
+    }
+
     /// The greatest coefficient of a contact.
-    fn greatest(&self, value: f64) -> f64 {
-        self.coefficients(value).into_iter().flatten().fold(0.0, f64::max)
+    fn greatest(&self, mechanism: &Mechanism, value: f64) -> f64 {
+        self.with_ends(mechanism, value).into_iter().flatten().fold(0.0, f64::max)
     }
 
     fn friction(&self, setup: &Setup, value: f64) -> StaticFriction {
@@ -156,11 +167,13 @@ fn law(model: &Model, options: &HoldOptions, setup: &Setup) -> Result<Law, Fault
 }
 
 fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Option<f64>>) -> Threshold {
-    let coefficients = value.map_or_else(Vec::new, |value| law.coefficients(value));
-    let named = setup.mechanism.contacts.iter().zip(coefficients).map(|(contact, mu_static)| {
+    let Mechanism { contacts, friction_circles, .. } = &setup.mechanism;
+    let coefficients = value.map_or_else(Vec::new, |value| law.with_ends(&setup.mechanism, value));
+    let named = contacts.iter().zip(coefficients).map(|(contact, mu_static)| {
         // A contact that may lift off has one face.
         (contact, if contact.opens { [mu_static[0]; 2] } else { mu_static })
     });
+    let is_hinge = |circle: &FrictionCircle| circle.end.is_none() && circle.is_rough();
     Threshold {
         varied: law.varied.clone(),
         present: law.present,
@@ -170,7 +183,7 @@ fn told(setup: &Setup, law: &Law, &Over { found: value, undecided }: &Over<Optio
         coefficients: named
             .map(|(contact, mu_static)| Coefficients { contact: contact.name.to_string(), mu_static })
             .collect(),
-        friction_in_hinges: setup.mechanism.friction_circles.iter().any(FrictionCircle::is_rough),
+        friction_in_hinges: friction_circles.iter().any(is_hinge),
     }
 }
 
@@ -196,7 +209,8 @@ fn certain_from(alone: &Setup, law: &Law, from: f64, work: Work<'_>) -> Result<O
     let (mut below, mut above) = (from, (from * (1.0 + NEAR)).max(f64::MIN_POSITIVE));
     while slides(above) {
         (below, above) = (above, 2.0 * above);
-        if above > GREATEST || law.greatest(above) > GREATEST_COEFFICIENT || work.is_over() {
+        if above > GREATEST || law.greatest(&alone.mechanism, above) > GREATEST_COEFFICIENT || work.is_over()
+        {
             return Ok(None);
         }
     }

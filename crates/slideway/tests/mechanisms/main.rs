@@ -49,6 +49,7 @@ mod redundant_closed_forms;
 mod redundant_rest;
 mod rest;
 mod space;
+mod space_pins;
 mod space_rods;
 mod speeds;
 mod standing;

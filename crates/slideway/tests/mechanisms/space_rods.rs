@@ -8,6 +8,7 @@ use slideway::limits::{LimitsOptions, limits};
 use slideway::model::{Model, Settings};
 use slideway::report::{Proof, Report, Solution, SolveReport, Style, Verdict};
 use slideway::solve::{SolveOptions, solve, solve_with};
+use slideway::standstill::{HoldOptions, hold};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
@@ -588,4 +589,100 @@ fn random_carriages_on_rods_have_the_solutions_of_newton_and_euler() {
         none += usize::from(expected.is_empty());
     }
     assert!(several > 0 && none > 3, "{several} with several solutions, {none} with none");
+}
+
+/// [`CARRIAGE`] without its drive, with a pull of 1 N along a line of its own, at rest.
+fn resting(values: &[(&str, f64)], load: [f64; 3], pull: [f64; 3]) -> Model {
+    let list = |[x, y, z]: [f64; 3]| format!("[{x}, {y}, {z}]");
+    let drive = CARRIAGE.find("[drives.pull]").unwrap()..CARRIAGE.find("[coordinates.x]").unwrap();
+    let text = CARRIAGE
+        .replace(&CARRIAGE[drive], "")
+        .replace("components = [-10, 0, 0]", &format!("components = {}", list(load)));
+    let text = format!(
+        "{text}\n[loads.pull]\ntype = \"force\"\nat = \"carriage.pull\"\ncomponents = {}\n",
+        list(pull)
+    );
+    let settings =
+        values.iter().fold(Settings::default(), |all, (name, value)| all.parameter(name, value.to_string()));
+    Model::parse(&text).unwrap().with(&settings).unwrap()
+}
+
+/// Theory of loads in space, section 5: a load along a round rod alone, `e` beside it, is held from `mu = L/(2 e)` on,
+/// whatever its direction; reference `z-axis.toml` has 0.7022 for 120 mm and (80, 30) mm.
+#[test]
+fn a_load_beside_a_round_rod_holds_itself_from_its_closed_form_on() {
+    let tool = |mu: f64| {
+        let mut text = CARRIAGE.replace("length = 0.1", "length = 0.12");
+        text.replace_range(text.find("[drives.pull]").unwrap()..text.find("[coordinates.x]").unwrap(), "");
+        let settings = [("mu", mu), ("qa", 0.08), ("qc", 0.03)]
+            .iter()
+            .fold(Settings::default(), |all, (name, value)| all.parameter(name, value.to_string()));
+        Model::parse(&text).unwrap().with(&settings).unwrap()
+    };
+    let at = 0.12 / 2.0 / 0.08_f64.hypot(0.03);
+    assert!((at - 0.7022).abs() < 5e-5);
+    for (mu, holds) in [(0.15, false), (0.7, false), (0.703, true), (0.9, true)] {
+        let report = hold(&tool(mu), &HoldOptions::default()).unwrap();
+        assert_eq!(report.holds, holds, "{mu}\n{}", report.text(Style::PLAIN));
+        assert_eq!(report.undecided, 0, "{mu}");
+        let threshold = &report.friction.as_ref().unwrap().threshold;
+        assert!(close(threshold.value.unwrap() * mu, at, 1e3), "{mu}: {threshold:?}");
+        let front = threshold.coefficients.iter().find(|one| one.contact == "rod.front").unwrap();
+        assert!(close(front.mu_static[0], at, 1e3), "{threshold:?}");
+        // The mass centre is on the rod: its acceleration presses no end.
+        for release in &report.releases {
+            let expected = -5.0 * (1.0 - mu / at);
+            let found = release.coordinates[0].acceleration.least.unwrap();
+            assert!(close(found, expected, 10.0), "{mu}: {found}");
+        }
+        assert_eq!(report.releases.len(), usize::from(!holds), "{}", report.text(Style::PLAIN));
+    }
+}
+
+/// The same for any loads: both ends press as statics says, so that it holds exactly where the force along the rod is at most
+/// `mu (|x_1| + |x_2|)`, which factors of one load may do in several ranges.
+#[test]
+fn rest_on_a_round_rod_is_that_of_the_forces_across_it() {
+    let mut random = Random(0x9d2c_5680_1234_5679);
+    let (mut several, mut bounded) = (0, 0);
+    for case in 0..40 {
+        let mu = random.between(0.05, 1.2);
+        let [a, c, qa, qc] = [0; 4].map(|_| random.between(-0.2, 0.2));
+        let [load, pull] = [0; 2].map(|_| [0; 3].map(|_| random.between(-10.0, 10.0)));
+        let values = [("mu", mu), ("a", a), ("c", c), ("qa", qa), ("qc", qc)];
+        let model = resting(&values, load, pull);
+        let report = hold(&model, &HoldOptions::default().load("pull")).unwrap();
+        // Moments about z and y of the forces on the carriage, and with them both ends at x = L/2 and -L/2.
+        let slack = |factor: f64| {
+            let sum = |of: &dyn Fn([f64; 3], [f64; 2]) -> f64| of(load, [qa, qc]) + factor * of(pull, [a, c]);
+            let across = [sum(&|f, _| f[1]), sum(&|f, _| f[2])];
+            let couple = [sum(&|f, at| -at[0] * f[0]), sum(&|f, at| -at[1] * f[0])];
+            let end = |sign: f64| {
+                let [n, z] = [0, 1].map(|axis| -across[axis] / 2.0 - sign * couple[axis] / 0.1);
+                n.hypot(z)
+            };
+            mu * (end(1.0) + end(-1.0)) - sum(&|f, _| f[0]).abs()
+        };
+        let of_load = report.load.as_ref().unwrap();
+        assert_eq!((of_load.undecided, report.undecided), (0, 0), "{case}");
+        let is_held = |factor: f64| {
+            of_load.held.iter().any(|range| {
+                range.least.is_none_or(|least| least <= factor)
+                    && range.greatest.is_none_or(|greatest| factor <= greatest)
+            })
+        };
+        for factor in (-400..=400).map(|step| f64::from(step) / 40.0) {
+            let slack = slack(factor);
+            assert!(slack.abs() < 1e-7 || is_held(factor) == (slack > 0.0), "{case}: {factor} {slack}");
+        }
+        for range in &of_load.held {
+            for end in [range.least, range.greatest].into_iter().flatten() {
+                assert!(slack(end).abs() < 1e-7 * (1.0 + end.abs()) * 100.0, "{case}: {end} {}", slack(end));
+            }
+        }
+        assert_eq!(report.holds, slack(1.0) > 0.0, "{case}");
+        several += usize::from(of_load.held.len() > 1);
+        bounded += usize::from(of_load.held.len() == 1);
+    }
+    assert!(several > 2 && bounded > 2, "{several} {bounded}");
 }

@@ -68,11 +68,11 @@ impl State<'_> {
                 JointPhase::Sticking => (None, *static_radius),
                 JointPhase::Sliding(sign) => (Some(sign), circle.radius),
             };
-            let reaction = [0, 1].map(|axis| self.function(&self.reaction(self.hinge_place(circle, axis))));
+            let reaction = [0, 1].map(|axis| self.function(&self.reaction(self.setup.force_of(index, axis))));
             Pin {
                 reaction,
                 couple: self.function(&self.friction_couple(index)),
-                radius: radius / self.setup.units.length,
+                radius: radius / self.setup.lever(index),
                 turning,
                 allowance: 0.0,
             }

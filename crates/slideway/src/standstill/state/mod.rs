@@ -8,7 +8,7 @@ pub(super) use inequalities::{StaticFriction, side_options, sides};
 use super::setup::Setup;
 use crate::ids::{ContactId, DriveId};
 use crate::kinetics::Reaction;
-use crate::mechanism::{Effort, FrictionCircle};
+use crate::mechanism::Effort;
 use crate::modes::SharedLoad;
 use crate::pattern::{Affine, AffineExpression, AffineSet, ContactPhase, Friction, JointPhase, NOTHING};
 use crate::sharing::is_rigid;
@@ -177,9 +177,9 @@ impl<'s> State<'s> {
         let circles = self.setup.mechanism.friction_circles.iter().enumerate();
         let couples = circles.zip(self.directions.unwrap_or_default()).filter_map(|((hinge, circle), t)| {
             let sign = self.pattern.hinges[hinge].sign();
-            let radius = circle.radius / self.setup.units.length * sign;
+            let radius = circle.radius / self.setup.lever(hinge) * sign;
             let couple = [0, 1].into_iter().fold(self.friction_couple(hinge), |couple, axis| {
-                couple.plus(radius * t[axis], &self.reaction(self.hinge_place(circle, axis)))
+                couple.plus(radius * t[axis], &self.reaction(self.setup.force_of(hinge, axis)))
             });
             (sign != 0.0).then(|| (self.dense(&couple), 0.0))
         });
@@ -264,10 +264,8 @@ impl<'s> State<'s> {
                 right_hand_side.axpy(force.constant * unit, &face, 1.0);
             }
         }
-        for (circle, &unknown) in setup.mechanism.friction_circles.iter().zip(&self.couples) {
-            for (row, sign) in setup.couple(circle) {
-                matrix[(row, unknown)] -= sign * unit * setup.units.length;
-            }
+        for (circle, (&unknown, column)) in self.couples.iter().zip(&setup.assembled.couples).enumerate() {
+            matrix.column_mut(unknown).axpy(-unit * setup.lever(circle), &column.rows(0, rows), 1.0);
         }
         if let Some(load) = &setup.load {
             if let Some(factor) = self.question.factor {
@@ -425,19 +423,14 @@ impl State<'_> {
 
     /// Angular acceleration of the first body of a hinge with friction against the second.
     pub(super) fn turning_acceleration(&self, hinge: usize) -> AffineExpression {
-        let circle = &self.setup.mechanism.friction_circles[hinge];
-        let unit = self.setup.units.acceleration / self.setup.units.length;
-        self.of_accelerations(self.setup.couple(circle), unit)
+        let row = self.setup.row(self.setup.sliders.len() + hinge);
+        let unit = self.setup.units.acceleration / self.setup.lever(hinge);
+        self.of_accelerations(row.iter().copied().enumerate(), unit)
     }
 
     /// The couple of a hinge with friction, on its first body.
     pub(super) fn friction_couple(&self, hinge: usize) -> AffineExpression {
         AffineExpression::unknown(self.couples[hinge], 1.0)
-    }
-
-    fn hinge_place(&self, circle: &FrictionCircle, axis: usize) -> usize {
-        let place = self.setup.assembled.layout.reaction(Reaction::Hinge(circle.joint, axis));
-        place.expect("every hinge has its reactions")
     }
 
     /// A linear form of the accelerations, in this unit.
