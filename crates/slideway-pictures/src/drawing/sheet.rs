@@ -26,6 +26,8 @@ const CONTACTS: f64 = 4.0;
 const LEAST_WIDTH: f64 = 290.0;
 /// Width that a row of panels of this size does not exceed if it has several.
 const ROW: f64 = 1300.0;
+/// So many panels may stand in one column, however wide they are.
+const IN_A_COLUMN: usize = 3;
 /// Space between panels, and around the sheet.
 const SPACE: f64 = 30.0;
 const MARGIN: f64 = 24.0;
@@ -373,9 +375,10 @@ impl Layout<'_> {
         pieces
     }
 
-    /// Width that a row does not exceed if it has several panels: it grows as these do.
+    /// Width that a row does not exceed if it has several panels. Where panels are so many that one column of them is taller
+    /// than a screen it grows as they do; fewer stay as large as they can be on a page.
     fn row(&self) -> f64 {
-        ROW * usual_room(self.mechanism)[0] / PANEL[0]
+        if self.panels.len() > IN_A_COLUMN { ROW * usual_room(self.mechanism)[0] / PANEL[0] } else { ROW }
     }
 
     /// The place that every picture has.

@@ -13,7 +13,7 @@ use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Status, Verdict, joints_in_words};
 use crate::scan::{bisect_until, evenly};
-use crate::solve::{Ends, Stages, ends_above, ends_below, pattern, tips_beyond, upright};
+use crate::solve::{Ends, Stages, ends_above, ends_below, pattern, tips_beyond};
 use std::ops::ControlFlow;
 
 /// Places nearer to zero than this share of the range are zero.
@@ -80,21 +80,31 @@ pub(super) fn direction(
     ))
 }
 
-/// Where modes end beyond which joints tip.
+/// Where joints begin to tip: beyond an end of a mode they do in all modes that go on, before it they do not.
 fn tips(found: &ModesFound, mechanism: &Mechanism, [from, to]: [f64; 2]) -> Vec<TipsAt> {
-    let ways: [(bool, Ends, f64); 2] = [(false, ends_below, -1.0), (true, ends_above, 1.0)];
-    let of = |mode| {
-        ways.map(|(above, ends, way)| {
-            let end = ends(mode)[1];
-            let is_same = |greater, smaller| found.same_ends.are_one(smaller, greater);
-            let joints =
-                tips_beyond((&found.existence, mechanism), (end.at, &end.cause), (ends, way), &is_same);
-            TipsAt { at: found.same_ends.told(end.at), above, joints }
-        })
+    let is_same = |greater, smaller| found.same_ends.are_one(smaller, greater);
+    let beyond = |(at, cause): (f64, &EndCause), above: bool| {
+        let (ends, way): (Ends, f64) = if above { (ends_above, 1.0) } else { (ends_below, -1.0) };
+        tips_beyond((&found.existence, mechanism), (at, cause), (ends, way), &is_same)
     };
-    let tips = upright(&found.existence, mechanism).flat_map(of);
-    let tips = tips.filter(|one| from < one.at && one.at < to);
-    let mut tips: Vec<TipsAt> = tips.filter(|one| !one.joints.is_empty()).collect();
+    let at_end = |(end, above): (&ModeEnd, bool), is_far: bool| {
+        // What ends a mode does so on the way out of it.
+        let cause = if is_far { &end.cause } else { &EndCause::Range };
+        let joints = beyond((end.at, cause), above);
+        let begins = beyond((end.at, &EndCause::Range), !above).is_empty();
+        (begins && !joints.is_empty()).then(|| TipsAt { at: found.same_ends.told(end.at), above, joints })
+    };
+    let of = |mode: &ModeInterval| {
+        let ends = [
+            (&mode.from, false, true),
+            (&mode.from, true, false),
+            (&mode.to, true, true),
+            (&mode.to, false, false),
+        ];
+        ends.map(|(end, above, is_far)| at_end((end, above), is_far))
+    };
+    let tips = found.existence.modes.iter().flat_map(of).flatten();
+    let mut tips: Vec<TipsAt> = tips.filter(|one| from < one.at && one.at < to).collect();
     tips.sort_by(|one, other| one.at.total_cmp(&other.at));
     tips.dedup();
     tips

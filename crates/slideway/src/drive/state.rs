@@ -48,7 +48,7 @@ pub(super) fn direction(model: &Model, direction: Sense, work: Work<'_>) -> Resu
         complete: report.complete,
         solutions,
         range,
-        no_solution: report.jams_from(),
+        no_solution: margins.and_then(|margins| margins.no_solution),
         never_jams: margins.is_some_and(|margins| margins.no_solution.is_none()),
         unique_at_least: report.unique_at_least,
         another_count: margins

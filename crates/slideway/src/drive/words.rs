@@ -4,7 +4,7 @@ use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
     EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
 };
-use crate::report::effort::{self, WHICH_WAY, least_friction, times, times_friction, unsettled};
+use crate::report::effort::{self, least_friction, times, times_friction, unsettled, which_way};
 use crate::report::{
     JointMode, OnFace, SHOWN_BY, Status, Verdict, capital, it_tips, it_would_tip, spaced, with_less,
 };
@@ -220,11 +220,8 @@ fn needs_several(report: &DriveReport, direction: &DriveDirection) -> String {
         [only] => settled(report, direction, only),
         several => {
             let efforts = efforts(several, ", or ");
-            format!(
-                "it can go on in {} ways, and {WHICH_WAY}: {} needs {efforts}.",
-                several.len(),
-                drive.name
-            )
+            let which = which_way(several.iter().map(|state| state.attainability));
+            format!("it can go on in {} ways, and {which}: {} needs {efforts}.", several.len(), drive.name)
         }
     };
     match unstable.as_slice() {

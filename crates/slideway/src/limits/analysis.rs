@@ -11,7 +11,7 @@ use super::vary::range_around;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::existence::CountInterval;
+use crate::modes::existence::{CountInterval, EndCause};
 use crate::progress::Work;
 use crate::report::Tipping;
 use crate::solve::Stages;
@@ -78,17 +78,30 @@ impl Analysis {
     }
 }
 
-/// Of each range without a solution what tips at three values within it.
+/// Of each range without a solution what tips at three values within it, and where modes end beside it.
 fn tipping(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Option<Tipping>> {
     let at = |value: f64| -> Vec<String> {
         let report = varied.solved(value, work);
         report.ok().and_then(|report| report.tipping()).map_or_else(Vec::new, |tipping| tipping.joints)
     };
+    let beside = |count: &CountInterval| -> Vec<Vec<String>> {
+        let Ok(mechanism) = varied.mechanism(count.from) else { return Vec::new() };
+        let ends =
+            found.existence.modes.iter().flat_map(|mode| [(&mode.to, count.from), (&mode.from, count.to)]);
+        let here = ends.filter(|(end, at)| found.same_ends.are_one(end.at.min(*at), end.at.max(*at)));
+        here.filter_map(|(end, _)| match &end.cause {
+            EndCause::OutputBound(bounds) => Some(mechanism.guided_sliders(bounds)),
+            _ => None,
+        })
+        .collect()
+    };
     let within = |count: &CountInterval| {
-        let is_asked = count.is_empty() && varied.model().has_guided_sliders();
-        let shares: &[f64] = if is_asked { &[0.125, 0.5, 0.875] } else { &[] };
-        let places = shares.iter().map(|share| count.from + share * (count.to - count.from));
-        Tipping::of(places.filter(|_| !work.is_over()).map(at))
+        if !count.is_empty() || !varied.model().has_guided_sliders() {
+            return None;
+        }
+        let places = [0.125, 0.5, 0.875].map(|share| count.from + share * (count.to - count.from));
+        let within = places.into_iter().filter(|_| !work.is_over()).map(at);
+        Tipping::of(within.chain(beside(count)))
     };
     found.counts.iter().map(within).collect()
 }

@@ -2,8 +2,8 @@
 
 use super::effort::{self, least_friction, times, times_friction};
 use super::{
-    Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, ModeEndCause, OnFace, Solution,
-    SolveReport, SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
+    CertificateKind, Contact, Drive, JamImpulse, JointMode, Margins, MarginsMissing, ModeEndCause, OnFace,
+    Solution, SolveReport, SpeedChange, Status, TippingRange, Verdict, capital, it_would_tip, with_less,
 };
 use crate::units::brief;
 
@@ -88,7 +88,7 @@ impl SolveReport {
     fn start_in_words(&self) -> Option<String> {
         let starts = self.starts()?;
         let unique = if self.every_load_has_one_state == Some(true) {
-            " Under any load there is one way only."
+            " Whatever the loads, only one thing can happen."
         } else {
             ""
         };
@@ -209,6 +209,9 @@ impl SolveReport {
             Status::None => "there is no solution",
             Status::Unknown => "no other contact mode has a solution",
             Status::One | Status::PreloadGap if self.solutions.len() + self.preload_gap_states.len() == 1 => {
+                if self.solutions.iter().any(|one| one.certificate == CertificateKind::NotProven) {
+                    return format!("Proven: no other solution is possible. This one is computed.{gaps}");
+                }
                 "it is the only solution"
             }
             _ => "there are no other solutions",
@@ -360,7 +363,8 @@ impl SolveReport {
             several => {
                 let ways = if self.is_listed() { several.len().to_string() } else { self.count.clone() };
                 let (efforts, tips) = (self.efforts_of(several), self.tipping_of(several));
-                format!("It can go on in {ways} ways, and {}{efforts}.{tips}{unstable}", effort::WHICH_WAY)
+                let which = effort::which_way(several.iter().map(|one| one.attainability.verdict));
+                format!("It can go on in {ways} ways, and {which}{efforts}.{tips}{unstable}")
             }
         }
     }
@@ -449,25 +453,21 @@ impl SolveReport {
         })
     }
 
-    /// The factor on all friction from which it jams: of margins, or where its only contact mode ends so.
-    pub(crate) fn jams_from(&self) -> Option<f64> {
-        let of_mode = || {
-            let [only] = self.solutions.as_slice() else { return None };
-            let margin = only.margin.as_ref()?;
-            margin.factor.filter(|_| margin.ends_with == ModeEndCause::Locking)
-        };
-        self.margins.as_ref().map_or_else(of_mode, |margins| margins.no_solution)
-    }
-
+    /// Of a mechanism whose other contact modes are not known with more friction: where its only one ends in a jam, and what is
+    /// proven.
     fn without_margins(&self) -> Vec<String> {
-        if let Some(factor) = self.jams_from() {
-            return vec![format!("It would jam from {}.", times(factor))];
-        }
+        let margin = match self.solutions.as_slice() {
+            [only] => only.margin.as_ref().filter(|margin| margin.ends_with == ModeEndCause::Locking),
+            _ => None,
+        };
+        let jams = margin.and_then(|margin| margin.factor);
+        let jams = jams.map(|factor| format!("In this contact mode it would jam from {}.", times(factor)));
         let least =
             self.unique_at_least.map(|factor| safe_up_to("any load", &format!("at least {}", times(factor))));
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
-        least.or(missing).into_iter().collect()
+        let known: Vec<String> = jams.into_iter().chain(least).collect();
+        if known.is_empty() { missing.into_iter().collect() } else { known }
     }
 
     /// "It would jam from mu = 0.6667 (2.222 times this friction)."

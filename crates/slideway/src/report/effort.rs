@@ -21,8 +21,14 @@ pub(crate) fn held_back(drive: &str, effort: &str) -> String {
     format!("it moves as prescribed only if {drive} holds it back, with {effort} against the motion")
 }
 
-/// What several ways to go on leave open.
-pub(crate) const WHICH_WAY: &str = "what went before decides which";
+/// What several ways to go on leave open; where stability is not known of some, also which of them are ways at all.
+pub(crate) fn which_way(mut ways: impl Iterator<Item = Verdict>) -> &'static str {
+    if ways.any(|verdict| matches!(verdict, Verdict::Undecided | Verdict::NotComputed)) {
+        "which of them a real mechanism takes is not decided"
+    } else {
+        "what went before decides which"
+    }
+}
 
 /// A factor on all friction, after the coefficient that it comes to if there is one: "mu = 0.6667 (2.222
 /// times this friction)".

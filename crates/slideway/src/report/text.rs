@@ -252,7 +252,7 @@ impl Text<'_> {
         } else if solution.certificate == CertificateKind::OnBoundary && solution.floating.is_empty() {
             self.line("  At a boundary within rounding: a normal force or the determinant may be zero.");
         }
-        if solution.certificate == CertificateKind::NotProven {
+        if solution.certificate == CertificateKind::NotProven && self.is_verbose() {
             self.line("  Found within tolerances, not proven.");
         }
     }

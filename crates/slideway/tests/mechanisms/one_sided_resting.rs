@@ -453,7 +453,7 @@ fn a_box_starts_as_the_reference_says() {
     let tips = at_rest(&text, &[("b", "100 mm"), ("slope", "25 deg"), ("mu", "0.8")]);
     assert_eq!(
         tips.answer(),
-        "It tips: base on its left corner, sticks. Under any load there is one way only."
+        "It tips: base on its left corner, sticks. Whatever the loads, only one thing can happen."
     );
     let rear = contact(&tips.solutions[0], "base.rear");
     assert!(
@@ -469,7 +469,7 @@ fn a_box_starts_as_the_reference_says() {
         (contact(&both.solutions[0], "base.front").gap_acceleration.unwrap() - 0.549_870_438_1).abs() < 1e-8
     );
     let stays = at_rest(&text, &[]);
-    assert_eq!(stays.answer(), "It holds. Under any load there is one way only.");
+    assert_eq!(stays.answer(), "It holds. Whatever the loads, only one thing can happen.");
     assert!(stays.solutions[0].coordinates[0].acceleration.abs() < 1e-12);
     assert_eq!(stays.solutions[0].oriented_determinant.signum(), 1.0);
 }

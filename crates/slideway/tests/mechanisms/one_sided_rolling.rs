@@ -108,7 +108,10 @@ fn what_sticks_in_the_state_may_begin_to_slip() {
     assert_close(only(&report).coordinates[0].acceleration, GRAVITY * (0.05 * cos - sin), 1.0, 1e-10);
     let text = wheel("sticks = true", 0.5).replace(&format!("[\"pull*{cos}\", \"pull*{sin}\"]"), "[0, 12]");
     let report = report_on(&text);
-    assert_eq!(report.answer(), "It starts to move: foot lifts off. Under any load there is one way only.");
+    assert_eq!(
+        report.answer(),
+        "It starts to move: foot lifts off. Whatever the loads, only one thing can happen."
+    );
     // `hold` lets it slip, too.
     let held = hold(&Model::parse(&wheel("sticks = true", 0.05)).unwrap(), &HoldOptions::default()).unwrap();
     assert_eq!(held.releases.len(), 1);
