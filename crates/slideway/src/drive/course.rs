@@ -13,7 +13,7 @@ use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
 use crate::progress::Work;
 use crate::report::{Status, Verdict, joints_in_words};
 use crate::scan::{bisect_until, evenly};
-use crate::solve::{Ends, Stages, ends_above, ends_below, pattern, tips_beyond};
+use crate::solve::{Stages, pattern};
 use std::ops::ControlFlow;
 
 /// Places nearer to zero than this share of the range are zero.
@@ -80,34 +80,32 @@ pub(super) fn direction(
     ))
 }
 
-/// Where joints begin to tip: beyond an end of a mode they do in all modes that go on, before it they do not.
+/// Where modes end since joints tip, whether or not there is another one in which they do: what happens first counts.
 fn tips(found: &ModesFound, mechanism: &Mechanism, [from, to]: [f64; 2]) -> Vec<TipsAt> {
-    let is_same = |greater, smaller| found.same_ends.are_one(smaller, greater);
-    let beyond = |(at, cause): (f64, &EndCause), above: bool| {
-        let (ends, way): (Ends, f64) = if above { (ends_above, 1.0) } else { (ends_below, -1.0) };
-        tips_beyond((&found.existence, mechanism), (at, cause), (ends, way), &is_same)
-    };
-    let at_end = |(end, above): (&ModeEnd, bool), is_far: bool| {
-        // What ends a mode does so on the way out of it.
-        let cause = if is_far { &end.cause } else { &EndCause::Range };
-        let joints = beyond((end.at, cause), above);
-        let begins = beyond((end.at, &EndCause::Range), !above).is_empty();
-        (begins && !joints.is_empty()).then(|| TipsAt { at: found.same_ends.told(end.at), above, joints })
-    };
-    let of = |mode: &ModeInterval| {
-        let ends = [
-            (&mode.from, false, true),
-            (&mode.from, true, false),
-            (&mode.to, true, true),
-            (&mode.to, false, false),
-        ];
-        ends.map(|(end, above, is_far)| at_end((end, above), is_far))
-    };
-    let tips = found.existence.modes.iter().flat_map(of).flatten();
-    let mut tips: Vec<TipsAt> = tips.filter(|one| from < one.at && one.at < to).collect();
+    let ends =
+        found.existence.modes.iter().flat_map(|mode| [(mode, &mode.from, false), (mode, &mode.to, true)]);
+    let tips = ends.filter(|(_, end, _)| from < end.at && end.at < to).map(|(mode, end, above)| TipsAt {
+        at: found.same_ends.told(end.at),
+        above,
+        joints: tips_at_end(mechanism, &mode.pattern, &end.cause),
+    });
+    let mut tips: Vec<TipsAt> = tips.filter(|one| !one.joints.is_empty()).collect();
     tips.sort_by(|one, other| one.at.total_cmp(&other.at));
     tips.dedup();
     tips
+}
+
+/// The joints that tip where a mode ends: guided sliders, and blocks of which a corner lifts off while another one stays.
+fn tips_at_end(mechanism: &Mechanism, pattern: &[ContactState], cause: &EndCause) -> Vec<String> {
+    match cause {
+        EndCause::OutputBound(bounds) => mechanism.guided_sliders(bounds),
+        EndCause::SideChange(contacts) if mechanism.tipped(pattern).is_empty() => {
+            let mut lifted = pattern.to_vec();
+            contacts.iter().for_each(|&contact| lifted[contact] = ContactState::Negative);
+            mechanism.tipped(&lifted)
+        }
+        _ => Vec::new(),
+    }
 }
 
 /// The modes of rows, each once, in words: those of a block that floats, where it does so in every row.

@@ -29,12 +29,7 @@ impl Upright {
     pub(crate) fn below(existence: &Existence, mechanism: &Mechanism) -> Option<Self> {
         let at_once = Self {
             until: FALLING[1],
-            tips: tips_beyond(
-                (existence, mechanism),
-                (FALLING[1], &EndCause::Range),
-                (ends_below, -1.0),
-                &is_same_end,
-            ),
+            tips: tips_beyond((existence, mechanism), (FALLING[1], &EndCause::Range), (ends_below, -1.0)),
         };
         let below = Self::towards(existence, mechanism, ends_below, -1.0);
         below.or(Some(at_once)).filter(|upright| upright.until > FALLING[0])
@@ -54,24 +49,22 @@ impl Upright {
         let there = modes.into_iter().map(|mode| ends(mode)[1]);
         let there = there.filter(|end| is_same_end(until.max(end.at), until.min(end.at)));
         let tips = there
-            .flat_map(|end| {
-                tips_beyond((existence, mechanism), (until, &end.cause), (ends, way), &is_same_end)
-            })
+            .flat_map(|end| tips_beyond((existence, mechanism), (until, &end.cause), (ends, way)))
             .collect();
         Some(Self { until, tips: distinct(tips) })
     }
 }
 
 /// The ends of a mode: the nearer one on the way and the farther one.
-pub(crate) type Ends = fn(&ModeInterval) -> [&ModeEnd; 2];
+type Ends = fn(&ModeInterval) -> [&ModeEnd; 2];
 
 /// On the way up.
-pub(crate) fn ends_above(mode: &ModeInterval) -> [&ModeEnd; 2] {
+fn ends_above(mode: &ModeInterval) -> [&ModeEnd; 2] {
     [&mode.from, &mode.to]
 }
 
 /// On the way down.
-pub(crate) fn ends_below(mode: &ModeInterval) -> [&ModeEnd; 2] {
+fn ends_below(mode: &ModeInterval) -> [&ModeEnd; 2] {
     [&mode.to, &mode.from]
 }
 
@@ -91,20 +84,18 @@ pub(crate) fn upright<'e>(
 }
 
 /// The joints that tip just beyond a place where a mode ends in which nothing tips, up (1) or down (-1): the guided sliders that
-/// end it, else what tips in the modes that go on. None where nothing goes on, as it jams, and where something else does. `is_same` of
-/// the greater and the smaller of two ends says whether they are one.
-pub(crate) fn tips_beyond(
+/// end it, else what tips in the modes that go on. None where nothing goes on, as it jams, and where something else does.
+fn tips_beyond(
     (existence, mechanism): (&Existence, &Mechanism),
     (at, cause): (f64, &EndCause),
     (ends, way): (Ends, f64),
-    is_same: &dyn Fn(f64, f64) -> bool,
 ) -> Vec<String> {
     if let EndCause::OutputBound(bounds) = cause {
         return mechanism.guided_sliders(bounds);
     }
     let goes_on = |mode: &&ModeInterval| {
         let [near, far] = ends(mode).map(|end| end.at);
-        let is_at = |end: f64| is_same(end.max(at), end.min(at));
+        let is_at = |end: f64| is_same_end(end.max(at), end.min(at));
         (way * near <= way * at || is_at(near)) && way * far > way * at && !is_at(far)
     };
     let tipped: Vec<_> =
