@@ -338,15 +338,12 @@ fn a_sled_pulled_high_tips_and_then_jams_in_every_answer() {
 fn what_ends_with_the_state_that_tips_jams() {
     let low = sled(SLED, &[]);
     let jams = "It would jam from mu = 0.3333 (1.667 times this friction)";
-    for answer in [
-        solve(&low).unwrap().answer(),
-        drive(&low, &DriveOptions::default().vary("mu=0.05..1.5".parse::<Vary>().unwrap())).unwrap().answer(),
-    ] {
-        assert!(answer.contains(jams) && !answer.contains("it tips (bed) from"), "{answer}");
-        assert!(
-            answer
-                .starts_with("It can go on in 2 ways, and what went before decides which: pull needs 7.848")
-        );
+    // The place of x leaves the stability of the state that stands undecided.
+    let ways =
+        "It can go on in 2 ways, and which of them a real mechanism takes is not decided: pull needs 7.848";
+    for answer in [solve(&low).unwrap().answer(), drive(&low, &DriveOptions::default()).unwrap().answer()] {
+        assert!(answer.starts_with(ways) && answer.contains(jams), "{answer}");
+        assert!(!answer.contains("it tips (bed) from"), "{answer}");
     }
     let sized = size(&low, &SizeOptions::new("h".parse::<Vary>().unwrap(), 1.0)).unwrap();
     assert!((sized.met[0].to - 0.25).abs() < 1e-9 && sized.tips.is_empty(), "{:?}", sized.tips);

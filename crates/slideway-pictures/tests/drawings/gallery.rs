@@ -350,7 +350,7 @@ fn pictures_say_what_they_show_in_words_and_escape_names() {
     for theme in [LIGHT, DARK] {
         let svg = svg::write(&sheet.scene, &sheet.frame(Some(800.0), Colours::Theme(theme))).unwrap();
         assert!(svg.contains("<title>A &lt;b&gt; &amp; &quot;quoted&quot; title</title>"));
-        assert!(svg.contains("<desc>q = 0 m, rate 1 m/s 3 solutions"));
+        assert!(svg.contains("<desc>q = 0 m, rate 1 m/s It can go on in 2 ways"));
         assert!(svg.contains("width=\"800\"") && svg.contains(theme.background));
         assert!(slideway_pictures::raster::png(&svg, 0.5).is_ok());
     }

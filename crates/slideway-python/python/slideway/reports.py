@@ -1083,7 +1083,8 @@ class ContactRange(Record):
     normal_force_parts: tuple[Range, ...] = ()
     """The parts of that range in which it can lie; absent where no value between is impossible."""
     friction_force: Range
-    """Friction force on the block, against u (N)."""
+    """Friction force on the block, against u (N); of a round end that of both of its contacts, at the one along
+    n."""
     couple: Range | None
     """Couple of a guided slider (N m)."""
 
