@@ -655,9 +655,6 @@ impl FaultKind {
                 "write the shape of the body, such as `shape = { rectangle = [\"200 mm\", \"100 mm\"] }`, in space `box` with three lengths; or `moment_of_inertia = \"0.1 kg m^2\"` about its centre of mass"
                     .to_owned(),
             ),
-            Self::WrongLength { place, found: 2, .. } if place.ends_with(".shape.box") => {
-                Some("in the plane write `rectangle`, which has two lengths; the third one of a box is along z".to_owned())
-            }
             Self::Doubt(doubt) => Some(doubt.hint_for(face)),
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
@@ -837,6 +834,9 @@ impl FaultKind {
                 "give it `shape = { box = [width, height, depth] }` in place of `moment_of_inertia`"
             }
             Self::Corners { .. } => "for others write `supports` with `normal = \"90 deg\"`",
+            Self::WrongLength { place, found: 2, .. } if place.ends_with(".shape.box") => {
+                "in the plane write `rectangle`, which has two lengths; the third one of a box is along z"
+            }
             Self::RoughAndTilted { .. } => {
                 "give each bearing a hinge of its own on the same pin, at its height: `carries = \"nothing\"`, and for one of them `\"z\"`, a force without friction"
             }

@@ -795,7 +795,7 @@ impl Mechanism {
 
     /// The contacts that are parts of ends of blocks on round rods.
     pub(crate) fn ends(&self) -> impl Iterator<Item = ContactId> + '_ {
-        self.friction_circles.iter().flat_map(|circle| circle.end).flatten()
+        self.friction_circles.iter().filter_map(|circle| circle.end).flatten()
     }
 
     /// Whether a joint slides on a round rod.

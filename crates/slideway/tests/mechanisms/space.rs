@@ -1074,9 +1074,10 @@ fn what_is_held_in_space_is_what_has_forces_in_equilibrium() {
 fn what_carries_nothing_without_friction_leaves_stability_as_it_is() {
     let verdict = |text: &str| report_on(text).solutions[0].attainability.clone();
     let (free, pressed) = (verdict(GUIDE), verdict(&GUIDE.replace("twist = 0 ", "twist = 0.3 ")));
-    assert_eq!((free.verdict, free.reason), (pressed.verdict, pressed.reason));
+    assert_eq!((free.verdict, &free.reason), (pressed.verdict, &pressed.reason));
     let rough = verdict(&GUIDE.replace("\"90 deg\", mu = 0 }", "\"90 deg\" }"));
-    assert_eq!(rough.reason.as_deref(), Some("nothing presses guide.key"));
+    // Nor does its friction, of a force that no other friction acts back on.
+    assert_eq!((rough.verdict, rough.reason), (free.verdict, free.reason));
 }
 
 /// Planar mechanisms with a weight along z that joints without friction carry move as in the plane.
@@ -1274,7 +1275,6 @@ fn what_a_drive_holds_may_have_several_solutions_without_friction() {
         assert!(!text(&report).contains("in one way only"), "{}", text(&report));
     }
     assert_eq!(sled(0.05).margins.unwrap().uniqueness, Some(0.0));
-    assert!(
-        text(&sled(0.05)).contains("Other loads can leave it several ways to move, even without friction.")
-    );
+    let told = text(&sled(0.05)).replace('\n', " ");
+    assert!(told.contains("Other loads can leave it several ways to move, even without friction."), "{told}");
 }
