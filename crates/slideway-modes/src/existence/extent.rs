@@ -37,7 +37,8 @@ impl Line {
             return Extent::Parts(vec![Part { from: end(range[0]), to: end(range[1]) }]);
         }
         let (line, conditions) = self.in_units(conditions, range);
-        let Some(reduced) = line.reduced(&conditions, range) else { return Extent::SingularThroughout };
+        let Some(mut reduced) = line.reduced(&conditions, range) else { return Extent::SingularThroughout };
+        reduced.equalities = line.equalities(&conditions, range);
         match parts(&reduced, range) {
             Some(parts) => Extent::Parts(parts),
             None => Extent::NotComputed,
@@ -80,7 +81,6 @@ impl Line {
         }
         let (_, at, lu) = best.filter(|(ratio, ..)| *ratio > SMALLEST_PIVOT)?;
         Reduced::new(self, conditions, at, &lu)
-            .map(|reduced| Reduced { equalities: self.equalities(conditions, range), ..reduced })
     }
 }
 
