@@ -131,7 +131,7 @@ impl Sheet {
 /// let report = slideway::solve::solve(&model)?;
 /// let forces = Some(Forces::InMotion(&report));
 /// let sheet = sheet(&mechanism, &configuration, forces, Shown::All).expect("solutions are there");
-/// assert!(sheet.description.contains("3 solutions"));
+/// assert!(sheet.description.contains("Solution 1 of 3"));
 /// # Ok::<(), slideway::fault::Faults>(())
 /// ```
 pub fn sheet(
