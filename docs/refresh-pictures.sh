@@ -79,6 +79,8 @@ work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
 "$slideway" new axis --output - >"$work/axis.toml"
 "$slideway" map "$work/axis.toml" --x "a=-300 mm..300 mm" --y "h=-300 mm..300 mm" --output "$pictures/map-axis.svg" --force
+"$slideway" new column --output - >"$work/column.toml"
+"$slideway" map "$work/column.toml" --x "a=-300 mm..300 mm" --y "b=-300 mm..300 mm" --output "$pictures/map-column.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "F_20=0 N..15 N" --output "$pictures/map-solutions.svg" --force
 "$slideway" map models/klepp-2002.toml --x mu_1=0..0.8 --y "alpha=60 deg..88 deg" --set F_20=0 --colour-by modes \
     --output "$pictures/map-modes.svg" --force

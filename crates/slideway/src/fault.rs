@@ -484,6 +484,8 @@ pub enum FaultKind {
         "{joint} has friction and carries couples out of the drawing, which press each of its bearings in a way of its own"
     )]
     RoughAndTilted { joint: String },
+    #[error("the collar of {joint} carries along z, which {joint} does not")]
+    IdleCollar { joint: String },
     #[error(
         "what {} carry out of the drawing is not determined: {excess} of their reactions {} too many",
         listed(joints), if *excess == 1 { "is" } else { "are" }
@@ -659,6 +661,9 @@ impl FaultKind {
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }
+            Self::UnknownWord { word, .. } if word == "feet" => {
+                Some("feet that slide along a guide are `supports` of its block: `{ at, aside, normal = \"90 deg\", mu }`; what turns on feet is not known".to_owned())
+            }
             Self::UnknownWord { nearest, known, .. } => choose(nearest.as_deref(), known),
             Self::NoHeading { section } => Some(format!("write `[{section}.NAME]` above these lines")),
             Self::MissingType { known, .. } => Some(format!("possible types: {}", known.join(", "))),
@@ -690,7 +695,7 @@ impl FaultKind {
                 "make it a block slider, whose front and rear contacts are press fits of their own".to_owned(),
             ),
             Self::OneSidedInExcess { in_space: true, .. } => {
-                Some("in `rests_on` write `corners = 3`, or leave out `one_sided`".to_owned())
+                Some("in `rests_on` write `corners = 3`, or leave out `one_sided`; or write the corners as `supports`, each with `normal = \"90 deg\"`, `stiffness`, `play` that nothing uses up, and minus half of that as `misalignment`".to_owned())
             }
             Self::OneSidedInExcess { in_space: false, .. } => Some(
                 "leave out the joints that do not carry now, or cannot touch together with the others, such as the opposite corners of a peg in its play; `hold` has the ranges of what they carry at rest"
@@ -837,8 +842,11 @@ impl FaultKind {
             Self::WrongLength { place, found: 2, .. } if place.ends_with(".shape.box") => {
                 "in the plane write `rectangle`, which has two lengths; the third one of a box is along z"
             }
+            Self::IdleCollar { .. } => {
+                "write `carries = \"z\"`; of a pin with a hinge for each bearing the collar belongs to the one that carries along z"
+            }
             Self::RoughAndTilted { .. } => {
-                "give each bearing a hinge of its own on the same pin, at its height: `carries = \"nothing\"`, and for one of them `\"z\"`, a force without friction"
+                "give the distance of both bearings of its pin, `bearings`; or each a hinge of its own, at its height: `carries = \"nothing\"`, and for one of them `\"z\"`"
             }
             Self::JointInSpace { .. } => {
                 "leave it out, or leave out what makes the model one in space: third coordinates and components, `box`, `normal`, `aside`, `rests_on`, `one_sided`, `carries`, `moments`, `products_of_inertia`"

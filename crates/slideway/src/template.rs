@@ -79,6 +79,7 @@ pub const TEMPLATES: &[Template] = templates![
     "sash",
     "carriage",
     "axis",
+    "column",
     "bushing",
     "telescope",
     "cylinder",

@@ -258,6 +258,39 @@ fn axis() {
     assert_locks_at("axis", 0.25, &[("L", 0.1), ("a", 0.12), ("h", -0.08)]);
 }
 
+/// `P/W = [1 - k^2 p.q +- k sqrt(|p - q|^2 - k^2 (p x q)^2)]/(1 - k^2 p^2)`, `k = 2 mu/L`, lifted and lowered, and the rule of
+/// 2 : 1 for the distance of the screw from the column.
+#[test]
+fn column() {
+    for (length, p, q, mu) in [
+        (0.1, [0.06, 0.04], [-0.08, 0.03], 0.15),
+        (0.12, [0.0, 0.0], [0.08, 0.03], 0.15),
+        (0.05, [-0.04, 0.07], [0.1, -0.2], 0.25),
+        (0.1, [0.0, -0.15], [0.0, 0.05], 0.3),
+    ] {
+        let [[a, b], [y, z]] = [p, q];
+        let values = [("L", length), ("a", a), ("b", b), ("y", y), ("z", z)];
+        let (k, r) = (2.0 * mu / length, f64::hypot(a, b));
+        let root = ((a - y).powi(2) + (b - z).powi(2) - (k * (a * z - b * y)).powi(2)).sqrt();
+        let with =
+            |sign: f64| 50.0 * (1.0 - k * k * (a * y + b * z) + sign * k * root) / (1.0 - k * k * r * r);
+        let sized = [&values[..], &[("mu", mu)]].concat();
+        assert_close(effort("column", &sized), with(1.0), "P lifted");
+        assert_close(effort_back("column", &sized), with(-1.0), "P lowered");
+        if r > 0.0 {
+            assert_locks_at("column", length / (2.0 * r), &values);
+        }
+    }
+    // In the axis of the column nothing jams, and a load holds itself from L/(2 q) on.
+    let beside = [("a", 0.0), ("b", 0.0), ("y", 0.3), ("z", 0.4)];
+    for (mu, holds) in [(0.099, false), (0.101, true)] {
+        let sized = [&beside[..], &[("mu", mu)]].concat();
+        assert!(moves("column", &sized));
+        assert_eq!(effort_back("column", &sized) <= 0.0, holds);
+    }
+    assert_locks_at("column", 0.25, &[("L", 0.1), ("a", 0.12), ("b", -0.16)]);
+}
+
 #[test]
 fn bushing() {
     for (degrees, bushing, overhang, diameter, mu) in

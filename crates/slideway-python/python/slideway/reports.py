@@ -215,10 +215,11 @@ Approach = Literal["below", "above"]
 - `"below"`: From below.
 - `"above"`: From above."""
 
-CarriedQuantity = Literal["force_z", "moment_x", "moment_y", "roll", "pitch"]
-"""What a joint carries out of the drawing without friction.
+CarriedQuantity = Literal["force_z", "collar", "moment_x", "moment_y", "roll", "pitch"]
+"""What a joint carries out of the drawing.
 
 - `"force_z"`: A force along z, out of the drawing.
+- `"collar"`: The couple of friction of the collar that carries this force.
 - `"moment_x"`: A moment about the x axis, of a hinge.
 - `"moment_y"`: A moment about the y axis, of a hinge.
 - `"roll"`: A moment about the direction of sliding.
@@ -1928,7 +1929,7 @@ class HingeRange(Record):
     force: tuple[Range, Range]
     """Its components along x and y (N)."""
     couple: Range | None
-    """The couple of its friction on the same body (N m); nothing if it has none."""
+    """The couple of its friction, with that of its collar, on the same body (N m); nothing if it has none."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)

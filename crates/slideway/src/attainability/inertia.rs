@@ -1,8 +1,7 @@
 //! What the elastic guides move: the inertia that the gaps of the contacts feel, and the motions without any.
 
 use crate::configuration::null_space;
-use crate::ids::JointId;
-use crate::kinetics::{KineticEquations, MasslessMotions};
+use crate::kinetics::{KineticEquations, MasslessMotions, Reaction};
 use nalgebra::{DMatrix, LU};
 
 /// Columns that depend on one another to within this are dependent.
@@ -30,7 +29,7 @@ impl Inertia {
     /// and the directions in which nothing resists differ in number or are dependent, which only drives can
     /// bring about.
     /// These hinges are elastic, too; the others are rigid.
-    pub(super) fn new(equations: &KineticEquations, hinges: &[JointId], length: f64) -> Option<Self> {
+    pub(super) fn new(equations: &KineticEquations, hinges: &[Reaction], length: f64) -> Option<Self> {
         let matrix = equations.contact_inertia(hinges);
         let lengths: Vec<f64> = equations
             .massless_accelerations()

@@ -25,8 +25,7 @@ mod ratios;
 mod shared;
 mod spectrum;
 
-use crate::ids::JointId;
-use crate::kinetics::KineticEquations;
+use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::{Contact, Effort, Mechanism};
 use crate::modes::{ContactState, ModeProblem};
 use crate::report::{Attainability, EigenvalueUnit, Fate, FlutterDamping, Verdict};
@@ -75,13 +74,13 @@ pub(crate) struct ElasticJoints {
 }
 
 impl ElasticJoints {
-    /// Those of a mechanism with these equations, and with friction in these hinges. Stiffnesses are those of the model
+    /// Those of a mechanism with these equations, and with friction by these forces of hinges. Stiffnesses are those of the model
     /// if it gives them for every contact, else 1 N/m; of redundant guides they count where all that share a load have
     /// one, the others having the mean of these. With friction in hinges all joints are equally stiff, but for redundant
     /// guides.
-    pub(crate) fn new(mechanism: &Mechanism, equations: &KineticEquations, hinges: &[JointId]) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism, equations: &KineticEquations, hinges: &[Reaction]) -> Self {
         let contacts = &mechanism.contacts;
-        let size = contacts.len() + 2 * hinges.len();
+        let size = contacts.len() + hinges.len();
         let shared = SharedGaps::of(mechanism, equations, hinges);
         let known: Vec<f64> = contacts.iter().filter_map(|contact| contact.stiffness).collect();
         let has_hinges = !hinges.is_empty();

@@ -10,7 +10,7 @@
 //! with stiffness 0 for open contacts: `p` is the mean of the oriented determinants of the determinate
 //! sub-mechanisms, weighted by stiffness (theory of redundant guides, R4).
 
-use crate::ids::{ContactId, JointId};
+use crate::ids::ContactId;
 use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
@@ -43,7 +43,7 @@ impl SharedGaps {
     pub(super) fn of(
         mechanism: &Mechanism,
         equations: &KineticEquations,
-        hinges: &[JointId],
+        hinges: &[Reaction],
     ) -> Option<Self> {
         let contacts = mechanism.contacts.len();
         let cut: Vec<usize> = mechanism.excess.contacts.iter().map(|contact| contact.index()).collect();
@@ -51,8 +51,7 @@ impl SharedGaps {
             return None;
         }
         let normals = (0..contacts).map(|contact| Reaction::Normal(ContactId(contact)));
-        let of_hinges = hinges.iter().flat_map(|joint| [0, 1].map(|axis| Reaction::Hinge(*joint, axis)));
-        let all: Vec<Reaction> = normals.chain(of_hinges).collect();
+        let all: Vec<Reaction> = normals.chain(hinges.iter().copied()).collect();
         let stresses = equations.self_stresses();
         let stress = |force: usize, stress: usize| {
             stress_force(equations.layout.reaction(all[force]).map_or(0.0, |row| stresses[stress][row]))

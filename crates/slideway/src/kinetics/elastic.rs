@@ -2,7 +2,7 @@
 
 use super::{KineticEquations, Reaction};
 use crate::configuration::null_space;
-use crate::ids::{ContactId, JointId};
+use crate::ids::ContactId;
 use nalgebra::{DMatrix, DVector};
 
 /// Motions of massless bodies that the elastic guides allow and the other joints, too, one in each column.
@@ -21,13 +21,13 @@ impl KineticEquations {
     /// `G_c M^-1 G_c^T` there.
     ///
     /// Of these hinges, which are elastic, too, both components of their gaps follow.
-    pub(crate) fn contact_inertia(&self, hinges: &[JointId]) -> DMatrix<f64> {
+    pub(crate) fn contact_inertia(&self, hinges: &[Reaction]) -> DMatrix<f64> {
         let (rows, answers) = (self.elastic_rows(hinges), self.answers_to_gaps(hinges));
         DMatrix::from_fn(rows.len(), rows.len(), |row, column| answers[column][rows[row]])
     }
 
     /// What a unit acceleration of each gap of [`Self::contact_inertia`] adds to all unknowns.
-    pub(crate) fn answers_to_gaps(&self, hinges: &[JointId]) -> Vec<DVector<f64>> {
+    pub(crate) fn answers_to_gaps(&self, hinges: &[Reaction]) -> Vec<DVector<f64>> {
         let answer = |row: usize| {
             let mut unit = DVector::zeros(self.layout.len());
             unit[row] = 1.0;
@@ -44,7 +44,7 @@ impl KineticEquations {
 
     /// The motions without mass on which the elastic guides act: of `[G_r; C] x = 0`, and of the test motions
     /// `[G_r; B^T] x = 0`, which are the same without drives.
-    pub(crate) fn massless_motions(&self, hinges: &[JointId]) -> [MasslessMotions; 2] {
+    pub(crate) fn massless_motions(&self, hinges: &[Reaction]) -> [MasslessMotions; 2] {
         let massless = self.massless_accelerations();
         let matrix = self.factorization.matrix();
         let normal = self.elastic_rows(hinges);
@@ -64,11 +64,10 @@ impl KineticEquations {
     }
 
     /// The rows of the normal forces of contacts that are not cut, and of the forces of these hinges.
-    fn elastic_rows(&self, hinges: &[JointId]) -> Vec<usize> {
+    fn elastic_rows(&self, hinges: &[Reaction]) -> Vec<usize> {
         let contacts = (0..self.contacts.len()).map(|k| Reaction::Normal(ContactId(k)));
         let kept = contacts.filter(|normal| !self.layout.is_cut(*normal));
-        let hinges = hinges.iter().flat_map(|joint| [0, 1].map(|axis| Reaction::Hinge(*joint, axis)));
-        kept.chain(hinges).filter_map(|reaction| self.layout.reaction(reaction)).collect()
+        kept.chain(hinges.iter().copied()).filter_map(|reaction| self.layout.reaction(reaction)).collect()
     }
 }
 

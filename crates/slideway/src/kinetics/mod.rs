@@ -39,7 +39,7 @@ use crate::configuration::{Configuration, ContactGeometry, motion_in_words, move
 use crate::fault::{Fault, FaultKind, Faults};
 use crate::ids::{BodyId, ContactId, DriveId, Frame, JointId};
 use crate::interval::Real;
-use crate::mechanism::{Contact, FrictionCircle, JointKind, Load, Mechanism, Slider};
+use crate::mechanism::{CircleLaw, Contact, FrictionCircle, JointKind, Load, Mechanism, Slider};
 use crate::model::SliderKind;
 use nalgebra::{DMatrix, DVector, RowDVector, Vector2};
 use self_stress::singular_position;
@@ -716,10 +716,11 @@ impl<T: Real> Mechanism<T> {
 
 impl<T> FrictionCircle<T> {
     /// The two reactions of whose magnitude together its friction follows: both components of the force of a hinge, or the
-    /// normal forces of a round end along n and along z.
+    /// normal forces of a round end along n and along z; of a collar the force along z, twice.
     pub(crate) fn reactions(&self) -> [Reaction; 2] {
         match self.end {
             Some(contacts) => contacts.map(Reaction::Normal),
+            None if matches!(self.law, CircleLaw::Collar) => [Reaction::Carried(self.joint, 0); 2],
             None => [0, 1].map(|axis| Reaction::Hinge(self.joint, axis)),
         }
     }

@@ -17,6 +17,7 @@ use crate::modes::branches::Branch;
 use crate::modes::existence::{CountInterval, EndCause, Limit, ModeEnd, ModeInterval};
 use crate::report::{CoordinateState, JointMode, ModeEndCause, NO_DRIVE, Tipping};
 use crate::solve::{joint_modes, pattern, signs, states};
+use std::f64::consts::FRAC_1_SQRT_2;
 
 impl VariedQuantity {
     pub(crate) fn new(varied: &Varied, [from, to]: [f64; 2], value: f64) -> Self {
@@ -177,8 +178,8 @@ impl Naming {
     }
 
     /// The name of the hinge of a friction circle.
-    fn hinge(&self, circle: usize) -> &str {
-        &self.mechanism.joints[self.mechanism.friction_circles[circle].joint.index()].name
+    fn hinge(&self, circle: usize) -> String {
+        self.mechanism.circle_name(circle)
     }
 
     /// Returns the limits of the forces of hinges with friction towards both ends of a branch.
@@ -187,7 +188,10 @@ impl Naming {
         let force = |(index, &circle): (usize, &usize)| {
             let ((from, from_grows), (to, to_grows)) = (limit(from, index), limit(to, index));
             let [from_grows, to_grows] = [from_grows != 0, to_grows != 0];
-            EndHingeForce { hinge: self.hinge(circle).to_owned(), from, to, from_grows, to_grows }
+            // The magnitude of a hinge, of a collar that of its one force.
+            let part = self.mechanism.friction_circles[circle].magnitude([FRAC_1_SQRT_2; 2]);
+            let [from, to] = [from, to].map(|force| force.map(|force| force * part));
+            EndHingeForce { hinge: self.hinge(circle), from, to, from_grows, to_grows }
         };
         circles.iter().enumerate().map(force).collect()
     }

@@ -201,7 +201,11 @@ impl<T: Real> Evaluation<'_, T> {
     fn joint(&self, id: JointId, joint: &model::Joint, contacts: &mut Vec<Contact<T>>) -> Joint<T> {
         let kind = match &joint.kind {
             model::JointKind::Hinge(hinge) => {
-                JointKind::Hinge(hinge.between.each_ref().map(|end| self.attachment(end)))
+                let raised = hinge.raised.map_or(T::zero(), |(times, id)| T::exactly(times) * self.value(id));
+                JointKind::Hinge(hinge.between.each_ref().map(|end| {
+                    let end = self.attachment(end);
+                    Attachment { z: end.z + raised, ..end }
+                }))
             }
             model::JointKind::Slider(slider) => JointKind::Slider(self.slider(slider, id, contacts)),
         };

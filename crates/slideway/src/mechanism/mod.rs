@@ -34,6 +34,7 @@ pub use pad::Pad;
 pub(crate) use part::{body_of, frames_of};
 pub(crate) use relations::{Pieces, Relation, loaded_bodies, quantities};
 pub use space::{BodyInSpace, Space};
+use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::Arc;
 
 /// Magnitudes in SI units with which every product of the equations stays within the range of floating point.
@@ -326,6 +327,9 @@ impl<T: Real> Contact<T> {
 
 /// Friction of a hinge: while it turns, the reaction `R` is tangent to a circle about the hinged point, so that
 /// its friction couple is `|M| = r |R|`; at rest it passes through the static circle, `|M| <= r_static |R|`.
+///
+/// That of a collar follows from one force alone, `|M| = r |F_z|`: it stands for both components, `|(F_z, F_z)| = sqrt(2) |F_z|`,
+/// with radii `r/sqrt(2)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrictionCircle<T = f64> {
     /// The hinge, or the sliding joint of a round end.
@@ -355,6 +359,8 @@ pub enum CircleLaw<T = f64> {
         /// How the radius of the friction circle follows from them.
         law: PinLaw,
     },
+    /// They are given, of a collar.
+    Collar,
 }
 
 impl FrictionCircle {
@@ -368,6 +374,7 @@ impl FrictionCircle {
         match self.law {
             CircleLaw::Radius => self.static_radius,
             CircleLaw::Pin { mu: [_, mu], .. } => mu,
+            CircleLaw::Collar => self.static_radius / FRAC_1_SQRT_2,
         }
     }
 
@@ -376,15 +383,25 @@ impl FrictionCircle {
         match self.law {
             CircleLaw::Radius => friction,
             CircleLaw::Pin { radius, law, .. } => law.friction_radius(friction, radius),
+            CircleLaw::Collar => friction * FRAC_1_SQRT_2,
         }
+    }
+
+    /// The magnitude of which its friction is a part: of a collar that of its one force.
+    pub(crate) fn magnitude(&self, [x, y]: [f64; 2]) -> f64 {
+        if self.is_collar() { x.abs() } else { x.hypot(y) }
     }
 }
 
 impl<T: Real> FrictionCircle<T> {
     /// Builds the friction circle of a hinge with this friction; `value` returns the value of each formula.
     pub(crate) fn new(joint: JointId, friction: &HingeFriction, value: impl Fn(FormulaId) -> T) -> Self {
-        let [kinetic, at_rest] = friction.radii(&value);
+        let [kinetic, at_rest] = match friction {
+            HingeFriction::Collar(_) => friction.radii(&value).map(|radius| radius * T::exactly(0.5).sqrt()),
+            _ => friction.radii(&value),
+        };
         let law = match *friction {
+            HingeFriction::Collar(_) => CircleLaw::Collar,
             HingeFriction::Circle(_) | HingeFriction::End(_) => CircleLaw::Radius,
             HingeFriction::Pin { mu, radius, law } => {
                 CircleLaw::Pin { mu: mu.map(&value), radius: value(radius), law }
@@ -393,10 +410,17 @@ impl<T: Real> FrictionCircle<T> {
         Self { joint, end: None, radius: kinetic, static_radius: at_rest, law }
     }
 
+    /// Whether it is that of a collar.
+    pub(crate) fn is_collar(&self) -> bool {
+        matches!(self.law, CircleLaw::Collar)
+    }
+
     /// With its coefficients, or the radii that are given, multiplied by a factor.
     pub(crate) fn times(self, factor: T) -> Self {
         let (radii, law) = match self.law {
-            CircleLaw::Radius => ([self.radius, self.static_radius].map(|radius| radius * factor), self.law),
+            CircleLaw::Radius | CircleLaw::Collar => {
+                ([self.radius, self.static_radius].map(|radius| radius * factor), self.law)
+            }
             CircleLaw::Pin { mu, radius, law } => {
                 let mu = mu.map(|mu| mu * factor);
                 (mu.map(|mu| law.friction_radius(mu, radius)), CircleLaw::Pin { mu, radius, law })
@@ -815,11 +839,12 @@ impl Mechanism {
     /// A fault that names the hinges, if some have friction.
     pub(crate) fn check_frictionless_hinges(&self) -> Result<(), Faults> {
         let has_friction = |circle: &&FrictionCircle| circle.radius.max(circle.static_radius) > 0.0;
-        let joint = |circle: &FrictionCircle| &self.joints[circle.joint.index()];
-        let rough: Vec<&Joint> = self.friction_circles.iter().filter(has_friction).map(joint).collect();
+        let circles = 0..self.friction_circles.len();
+        let rough: Vec<usize> = circles.filter(|one| has_friction(&&self.friction_circles[*one])).collect();
         let Some(first) = rough.first() else { return Ok(()) };
-        let hinges = rough.iter().map(|joint| joint.name.to_string()).collect();
-        Err(Fault::new(FaultKind::FrictionInHinges { hinges }, first.place.clone()).into())
+        let place = self.joints[self.friction_circles[*first].joint.index()].place.clone();
+        let hinges = rough.iter().map(|circle| self.circle_name(*circle)).collect();
+        Err(Fault::new(FaultKind::FrictionInHinges { hinges }, place).into())
     }
 }
 
@@ -885,9 +910,21 @@ impl<T: Real> Mechanism<T> {
         }
     }
 
-    /// The friction of a hinge, if the model gives it.
+    /// The friction of a hinge, if the model gives it; not that of its collar.
     pub fn friction_circle(&self, joint: JointId) -> Option<&FrictionCircle<T>> {
-        self.friction_circles.iter().find(|circle| circle.joint == joint)
+        self.circle_of(joint).map(|circle| &self.friction_circles[circle])
+    }
+
+    /// The number of the friction circle of a hinge.
+    pub(crate) fn circle_of(&self, joint: JointId) -> Option<usize> {
+        self.friction_circles.iter().position(|circle| circle.joint == joint && !circle.is_collar())
+    }
+
+    /// What has the friction of a circle: "pin" of a hinge, "pin.collar" of its collar.
+    pub(crate) fn circle_name(&self, circle: usize) -> String {
+        let circle = &self.friction_circles[circle];
+        let name = &self.joints[circle.joint.index()].name;
+        if circle.is_collar() { format!("{name}.collar") } else { name.to_string() }
     }
 
     /// Whether the friction of a contact's preload acts at another face when the contact changes its side.

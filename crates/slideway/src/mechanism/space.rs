@@ -8,7 +8,7 @@ use super::excess::{Row, rank};
 use super::{Body, Joint, JointKind, Mechanism, Slider, rot90};
 use crate::dense::singular_values;
 use crate::fault::{Fault, FaultKind, Faults};
-use crate::ids::{ContactId, Frame};
+use crate::ids::{ContactId, Frame, JointId};
 use crate::interval::Real;
 use nalgebra::{DMatrix, Vector2};
 
@@ -115,7 +115,7 @@ impl Mechanism {
         }
         let mut faults = Faults::default();
         for (index, joint) in self.joints.iter().enumerate() {
-            let circle = self.friction_circles.iter().find(|circle| circle.joint.index() == index);
+            let circle = self.friction_circle(JointId(index));
             let name = joint.name.to_string();
             if let Some(what) = self.not_in_space(joint) {
                 faults.push(Fault::new(FaultKind::JointInSpace { joint: name, what }, joint.place.clone()));

@@ -242,7 +242,11 @@ impl Model {
         };
         let joint = |joint: &Joint| {
             let of_kind = match &joint.kind {
-                JointKind::Hinge(hinge) => hinge.between.iter().any(|end| end.z.is_some()),
+                JointKind::Hinge(hinge) => {
+                    hinge.collar.is_some()
+                        || hinge.raised.is_some()
+                        || hinge.between.iter().any(|end| end.z.is_some())
+                }
                 JointKind::Slider(slider) => slider.z.is_some(),
             };
             of_kind || joint.carries.is_some()
@@ -487,9 +491,10 @@ impl Model {
             let slider = match &joint.kind {
                 JointKind::Slider(slider) => slider,
                 JointKind::Hinge(hinge) => {
-                    let friction = hinge.friction.map(|friction| friction.kinetic_and_static());
+                    let friction = hinge.friction.into_iter().chain(hinge.collar);
+                    let pairs = friction.map(|friction| friction.kinetic_and_static());
                     faults.extend(
-                        friction.and_then(|pair| self.static_below_kinetic(&joint.name, pair, &value)),
+                        pairs.filter_map(|pair| self.static_below_kinetic(&joint.name, pair, &value)),
                     );
                     continue;
                 }
@@ -651,7 +656,10 @@ fn doubles(joint: &JointKind, other: &JointKind, values: &[Option<f64>]) -> bool
             }
             let at = |hinge: &super::Hinge| place(hinge.between[0].position);
             // At another height it is a bearing of the same pin.
-            let height = |hinge: &super::Hinge| hinge.between[0].z.map_or(Some(0.0), |z| values[z.index()]);
+            let height = |hinge: &super::Hinge| {
+                let raised = hinge.raised.map_or(Some(0.0), |(times, id)| Some(times * values[id.index()]?));
+                Some(hinge.between[0].z.map_or(Some(0.0), |z| values[z.index()])? + raised?)
+            };
             frames[0] == frames[1] && at(a).is_some() && at(a) == at(b) && height(a) == height(b)
         }
         (JointKind::Slider(a), JointKind::Slider(b)) => {

@@ -160,7 +160,7 @@ impl Places<'_> {
             self.greatest(friction.kinetic_and_static());
             let kinetic = self.degree(friction.kinetic_and_static()[0]);
             let degree = match friction {
-                HingeFriction::Circle(_) | HingeFriction::End(_) => kinetic,
+                HingeFriction::Circle(_) | HingeFriction::End(_) | HingeFriction::Collar(_) => kinetic,
                 HingeFriction::Pin { radius, .. } => match (kinetic, self.degree(radius)) {
                     (one, Degree::Constant) | (Degree::Constant, one) => one,
                     _ => Degree::Other,

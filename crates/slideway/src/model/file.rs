@@ -121,6 +121,22 @@ pub(super) struct HingeTable {
     /// What it carries out of the drawing: "all" (default), the force along "z" alone, the couples of "tilt" alone,
     /// or "nothing".
     pub(super) carries: Option<HingeCarries>,
+    /// Distance of both bearings of its pin along z, each with the friction given, which carry the couples: two hinges,
+    /// `NAME.upper` and `NAME.lower`, at half of it above and below. Default: one, at the height of its points.
+    pub(super) bearings: Option<Quantity>,
+    /// The collar by which it carries along z, with friction of its own. Default: none, without friction.
+    pub(super) collar: Option<CollarTable>,
+}
+
+/// The collar of a pin: a ring that carries the force along z.
+#[derive(Deserialize, Debug)]
+#[cfg_attr(test, derive(JsonSchema))]
+#[serde(deny_unknown_fields)]
+pub(super) struct CollarTable {
+    /// Friction couple per force along z (m): for a narrow ring its friction coefficient times its mean radius.
+    pub(super) friction_radius: Quantity,
+    /// The same at rest (m), not below `friction_radius`. Default: `friction_radius`.
+    pub(super) static_friction_radius: Option<Quantity>,
 }
 
 /// What a hinge carries out of the drawing.

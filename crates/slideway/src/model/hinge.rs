@@ -11,6 +11,10 @@ pub struct Hinge {
     pub between: [Attachment; 2],
     /// Its friction, if the file gives it.
     pub friction: Option<HingeFriction>,
+    /// How many times which length it is above its points, if it is one of two bearings.
+    pub raised: Option<(f64, FormulaId)>,
+    /// The friction of the collar by which it carries along z, if it has one.
+    pub collar: Option<HingeFriction>,
 }
 
 /// Friction of a hinge.
@@ -29,6 +33,8 @@ pub enum HingeFriction {
     Circle([FormulaId; 2]),
     /// The friction coefficients of a round end of a block: kinetic and static.
     End([FormulaId; 2]),
+    /// The couples of a collar by its force along z (m): kinetic and static.
+    Collar([FormulaId; 2]),
 }
 
 impl PinLaw {
@@ -49,7 +55,7 @@ impl HingeFriction {
     /// The radii of the friction circle (m), kinetic and static; of a round end its coefficients.
     pub(crate) fn radii<T: Real>(&self, value: impl Fn(FormulaId) -> T) -> [T; 2] {
         match *self {
-            Self::Circle(radii) | Self::End(radii) => radii.map(value),
+            Self::Circle(radii) | Self::End(radii) | Self::Collar(radii) => radii.map(value),
             Self::Pin { mu, radius, law } => mu.map(|mu| law.friction_radius(value(mu), value(radius))),
         }
     }
@@ -57,14 +63,17 @@ impl HingeFriction {
     /// Its coefficients, or its radii: kinetic and static.
     pub(crate) fn kinetic_and_static(&self) -> [FormulaId; 2] {
         match *self {
-            Self::Circle(values) | Self::End(values) | Self::Pin { mu: values, .. } => values,
+            Self::Circle(values)
+            | Self::End(values)
+            | Self::Collar(values)
+            | Self::Pin { mu: values, .. } => values,
         }
     }
 
     /// Everything that the friction circles follow from.
     pub(crate) fn formulas(self) -> impl Iterator<Item = FormulaId> {
         let pin = match self {
-            Self::Circle(_) | Self::End(_) => None,
+            Self::Circle(_) | Self::End(_) | Self::Collar(_) => None,
             Self::Pin { radius, .. } => Some(radius),
         };
         self.kinetic_and_static().into_iter().chain(pin)
@@ -73,24 +82,24 @@ impl HingeFriction {
     /// Its friction coefficients, kinetic and static, unless its radii are given.
     pub(crate) fn coefficients(&self) -> Option<[FormulaId; 2]> {
         match *self {
-            Self::Circle(_) => None,
+            Self::Circle(_) | Self::Collar(_) => None,
             Self::Pin { mu, .. } | Self::End(mu) => Some(mu),
         }
     }
 }
 
 impl Model {
-    /// The friction of all hinges that have it, and of all round ends, in the order of the joints.
+    /// The friction of all hinges and collars that have it, and of all round ends, in the order of the joints.
     pub(crate) fn hinge_friction(&self) -> impl Iterator<Item = HingeFriction> {
         self.joints.iter().flat_map(Joint::friction_of_blocks)
     }
 }
 
 impl Joint {
-    /// The friction of a hinge, or of each round end.
+    /// The friction of a hinge and of its collar, or of each round end.
     pub(crate) fn friction_of_blocks(&self) -> Vec<HingeFriction> {
         match &self.kind {
-            JointKind::Hinge(hinge) => hinge.friction.into_iter().collect(),
+            JointKind::Hinge(hinge) => hinge.friction.into_iter().chain(hinge.collar).collect(),
             JointKind::Slider(slider) => slider.ends.iter().map(|end| end.friction).collect(),
         }
     }

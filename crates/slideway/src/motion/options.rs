@@ -134,8 +134,8 @@ impl SimulateOptions {
     pub fn initial_of(self, typed: &str, mechanism: &Mechanism) -> Result<Self, Faults> {
         let pattern: String = typed.chars().filter(|sign| !sign.is_whitespace()).collect();
         let contacts = mechanism.contacts.iter().map(|contact| contact.name.to_string());
-        let hinges = mechanism.friction_circles.iter().filter(|circle| circle.is_rough());
-        let hinges = hinges.map(|circle| mechanism.joints[circle.joint.index()].name.to_string());
+        let hinges = mechanism.friction_circles.iter().enumerate().filter(|(_, circle)| circle.is_rough());
+        let hinges = hinges.map(|(circle, _)| mechanism.circle_name(circle));
         let names: Vec<String> = contacts.chain(hinges).collect();
         if pattern.len() == names.len() && pattern.chars().all(|sign| "+-0=".contains(sign)) {
             return Ok(self.initial(&pattern));

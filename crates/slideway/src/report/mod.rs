@@ -842,13 +842,15 @@ pub struct Carried {
     pub unit: &'static str,
 }
 
-/// What a joint carries out of the drawing without friction.
+/// What a joint carries out of the drawing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum CarriedQuantity {
     /// A force along z, out of the drawing.
     ForceZ,
+    /// The couple of friction of the collar that carries this force.
+    Collar,
     /// A moment about the x axis, of a hinge.
     MomentX,
     /// A moment about the y axis, of a hinge.
@@ -864,6 +866,7 @@ impl CarriedQuantity {
     fn in_words(self) -> &'static str {
         match self {
             Self::ForceZ => "force along z on",
+            Self::Collar => "friction couple of the collar on",
             Self::MomentX => "moment about x on",
             Self::MomentY => "moment about y on",
             Self::Roll => "moment of roll on",
@@ -875,6 +878,7 @@ impl CarriedQuantity {
     fn key(self) -> &'static str {
         match self {
             Self::ForceZ => "force_z",
+            Self::Collar => "collar",
             Self::MomentX => "moment_x",
             Self::MomentY => "moment_y",
             Self::Roll => "roll",

@@ -15,7 +15,7 @@ use crate::configuration::{Configuration, unit};
 use crate::enclosure::{EnclosedOutputs, Tipping};
 use crate::fault::Faults;
 use crate::ids::{BodyId, ContactId, Frame, JointId};
-use crate::influence::{ContactFriction, Influence};
+use crate::influence::{ContactFriction, HingeState, Influence};
 use crate::interval::Interval;
 use crate::kinetics::{KineticEquations, Opening, Reaction, gap_acceleration, velocity_of_effort};
 use crate::law::tips;
@@ -407,7 +407,7 @@ impl<'a> Answer<'a> {
             joints: self.joint_modes(&state.signs),
             hinges: self.hinges(state, unknowns),
             round_ends: self.round_ends(state),
-            carried: self.carried(unknowns),
+            carried: self.carried(state, unknowns),
             bodies: self.bodies(unknowns, &residuals),
             coordinates: self.coordinates(state, unknowns),
             friction_exceeds_loads: self.friction_exceeds_loads(state),
@@ -525,16 +525,21 @@ impl<'a> Answer<'a> {
                 name: joint.name.to_string(),
                 on: self.mechanism.frame_name(on).to_owned(),
                 force: [sign * component(0)?, sign * component(1)?],
-                friction: state.hinges.iter().find(|hinge| hinge.joint.index() == index).map(|hinge| {
-                    report::HingeFriction {
-                        couple: sign * hinge.couple + 0.0,
-                        radius: self.mechanism.friction_circles[hinge.circle].radius,
-                        angular_velocity: sign * self.configuration.spin(self.mechanism, hinge.joint) + 0.0,
-                    }
+                friction: self.rubbing(state, JointId(index), false).map(|hinge| report::HingeFriction {
+                    couple: sign * hinge.couple + 0.0,
+                    radius: self.mechanism.friction_circles[hinge.circle].radius,
+                    angular_velocity: sign * self.configuration.spin(self.mechanism, hinge.joint) + 0.0,
                 }),
             })
         };
         joints.filter_map(one).collect()
+    }
+
+    /// The friction of a hinge, or of its collar.
+    fn rubbing<'s>(&self, state: &'s State<'_>, joint: JointId, collar: bool) -> Option<&'s HingeState> {
+        let circles = &self.mechanism.friction_circles;
+        let mut all = state.hinges.iter();
+        all.find(|hinge| hinge.joint == joint && circles[hinge.circle].is_collar() == collar)
     }
 
     fn round_ends(&self, state: &State<'_>) -> Vec<report::RoundEnd> {
@@ -560,11 +565,11 @@ impl<'a> Answer<'a> {
         accelerations.iter().any(|acceleration| *acceleration != 0.0).then_some(accelerations)
     }
 
-    /// What joints carry out of the drawing without friction, on the body of theirs that is not ground.
-    fn carried(&self, unknowns: &DVector<f64>) -> Vec<report::Carried> {
+    /// What joints carry out of the drawing, on the body of theirs that is not ground, and the friction of collars.
+    fn carried(&self, state: &State<'_>, unknowns: &DVector<f64>) -> Vec<report::Carried> {
         let layout = self.influence.layout();
         let one = |(index, reaction): (usize, &Reaction)| {
-            let Reaction::Carried(id, component) = *reaction else { return None };
+            let Reaction::Carried(id, component) = *reaction else { return Vec::new() };
             let joint = &self.mechanism.joints[id.index()];
             let [first, second] = joint.joined().frames;
             let (on, sign) = if first.body().is_some() { (first, 1.0) } else { (second, -1.0) };
@@ -575,16 +580,20 @@ impl<'a> Answer<'a> {
                 (JointKind::Slider(_), 1) => CarriedQuantity::Roll,
                 (JointKind::Slider(_), _) => CarriedQuantity::Pitch,
             };
-            Some(report::Carried {
+            let told = |quantity, value: f64| report::Carried {
                 name: joint.name.to_string(),
                 on: self.mechanism.frame_name(on).to_owned(),
                 quantity,
                 // Adding zero turns -0 into 0.
-                value: sign * unknowns[layout.accelerations() + index] + 0.0,
-                unit: if component == 0 { "N" } else { "N m" },
-            })
+                value: sign * value + 0.0,
+                unit: if quantity == CarriedQuantity::ForceZ { "N" } else { "N m" },
+            };
+            let collar = self.rubbing(state, id, true).filter(|_| component == 0);
+            let collar = collar.map(|hinge| told(CarriedQuantity::Collar, hinge.couple));
+            let force = told(quantity, unknowns[layout.accelerations() + index]);
+            [force].into_iter().chain(collar).collect()
         };
-        layout.reactions().iter().enumerate().filter_map(one).collect()
+        layout.reactions().iter().enumerate().flat_map(one).collect()
     }
 
     fn bodies(&self, unknowns: &DVector<f64>, residuals: &[Residual]) -> Vec<report::Body> {

@@ -9,9 +9,9 @@ use super::state::states;
 use crate::attainability::{Candidate, ElasticGuides, ElasticJoints};
 use crate::configuration::Configuration;
 use crate::fault::Faults;
-use crate::ids::{ContactId, JointId};
+use crate::ids::ContactId;
 use crate::influence::Influence;
-use crate::kinetics::KineticEquations;
+use crate::kinetics::{KineticEquations, Reaction};
 use crate::mechanism::Mechanism;
 use crate::modes::{ContactState, ModeProblem};
 use crate::problem::TurningHinge;
@@ -88,34 +88,41 @@ pub(crate) fn attainability_with_hinges(
     let of_left = |left: Left<'_>| {
         let states = left.states(states);
         let slopes = left.data().block_problem(hinges)?.slopes(&states, reactions);
-        let (slopes, joints) = with_ends_once(&left.mechanism, slopes, hinges);
-        Ok::<_, Faults>(ElasticJoints::new(&left.mechanism, &left.equations, &joints).of(slopes, &states))
+        let (slopes, forces) = with_ends_once(&left.mechanism, slopes, hinges);
+        Ok::<_, Faults>(ElasticJoints::new(&left.mechanism, &left.equations, &forces).of(slopes, &states))
     };
     Left::new(data, state, &open).and_then(of_left).unwrap_or_else(|_| not_computed(NOT_DRIVEN))
 }
 
-/// The slopes in which the components of round ends, which are contacts, too, stand once, as those; and the hinges.
+/// The slopes in which the components of round ends, which are contacts, too, stand once, as those, and the force of a collar once;
+/// and the forces of hinges.
 fn with_ends_once(
     mechanism: &Mechanism,
     mut slopes: DMatrix<f64>,
     hinges: &[TurningHinge],
-) -> (DMatrix<f64>, Vec<JointId>) {
+) -> (DMatrix<f64>, Vec<Reaction>) {
     let contacts = mechanism.contacts.len();
     let mut kept: Vec<usize> = (0..contacts).collect();
-    let mut joints = Vec::new();
+    let mut forces = Vec::new();
     for (index, hinge) in hinges.iter().enumerate() {
         let own = [0, 1].map(|component| contacts + 2 * index + component);
-        if let Some(end) = mechanism.friction_circles[hinge.circle].end {
-            for (contact, column) in end.into_iter().zip(own) {
-                let more = slopes.column(column).into_owned();
-                slopes.column_mut(contact.index()).add_assign(&more);
-            }
+        let circle = &mechanism.friction_circles[hinge.circle];
+        let mut add = |from: usize, to: usize| {
+            let more = slopes.column(from).into_owned();
+            slopes.column_mut(to).add_assign(&more);
+        };
+        if let Some(end) = circle.end {
+            end.into_iter().zip(own).for_each(|(contact, column)| add(column, contact.index()));
+        } else if circle.is_collar() {
+            add(own[1], own[0]);
+            kept.push(own[0]);
+            forces.push(circle.reactions()[0]);
         } else {
             kept.extend(own);
-            joints.push(hinge.joint);
+            forces.extend(circle.reactions());
         }
     }
-    (slopes.select_rows(&kept).select_columns(&kept), joints)
+    (slopes.select_rows(&kept).select_columns(&kept), forces)
 }
 
 /// Why nothing is said of what is left when contacts have lifted off.

@@ -79,7 +79,8 @@ impl Balance<'_> {
     fn reaction(&self, reaction: Reaction, value: f64) -> Vec<Wrench> {
         match reaction {
             Reaction::Hinge(joint, axis) => {
-                let rough = self.hinges.iter().find(|hinge| hinge.joint == joint);
+                let circle = self.mechanism.circle_of(joint);
+                let rough = self.hinges.iter().find(|hinge| Some(hinge.circle) == circle);
                 let value = rough.map_or(value, |hinge| hinge.force[axis]);
                 let axis = if axis == 0 { Vector2::x() } else { Vector2::y() };
                 self.hinge(joint, value * axis)

@@ -127,16 +127,19 @@ fn hinge(
     }))
 }
 
-/// The couple of friction of a hinge that has some, on its first body.
+/// The couple of friction of a hinge that has some, and of its collar, on its first body.
 fn friction_couple(
     setup: &Setup,
     hinge: JointId,
     state: &State<'_>,
     region: &Region<'_>,
 ) -> Result<Option<Range>, Unsolved> {
-    let circle = setup.mechanism.friction_circles.iter().position(|circle| circle.joint == hinge);
+    let circles = setup.mechanism.friction_circles.iter().enumerate();
+    let own =
+        circles.filter(|(_, circle)| circle.joint == hinge).map(|(circle, _)| state.friction_couple(circle));
     let unit = setup.units.force * setup.units.length;
-    circle.map(|circle| range(state, region, &state.friction_couple(circle), unit)).transpose()
+    let whole = own.reduce(|sum, couple| sum.plus(1.0, &couple));
+    whole.map(|couple| range(state, region, &couple, unit)).transpose()
 }
 
 fn drive(setup: &Setup, id: DriveId, state: &State<'_>, region: &Region<'_>) -> Result<DriveRange, Unsolved> {

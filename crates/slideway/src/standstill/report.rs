@@ -315,7 +315,7 @@ pub struct HingeRange {
     pub on: String,
     /// Its components along x and y (N).
     pub force: [Range; 2],
-    /// The couple of its friction on the same body (N m); nothing if it has none.
+    /// The couple of its friction, with that of its collar, on the same body (N m); nothing if it has none.
     pub couple: Option<Range>,
 }
 

@@ -153,10 +153,11 @@ impl<'h, 's> Blocks<'h, 's> {
         let contacts = &setup.mechanism.contacts;
         let layout = &setup.assembled.layout;
         let normal = (0..contacts.len()).map(|k| layout.reaction(Reaction::Normal(ContactId(k))));
+        let circles = &setup.mechanism.friction_circles;
         let force = self
             .hinges
             .iter()
-            .flat_map(|hinge| [0, 1].map(|axis| layout.reaction(Reaction::Hinge(hinge.joint, axis))));
+            .flat_map(|hinge| circles[hinge.circle].reactions().map(|force| layout.reaction(force)));
         let rows: Vec<usize> = normal.chain(force).collect::<Option<_>>()?;
         let answers = |columns: Vec<&DVector<f64>>| {
             let columns: Vec<DVector<f64>> =
@@ -169,7 +170,6 @@ impl<'h, 's> Blocks<'h, 's> {
         let eta = without_rounding(&setup.mechanism, [friction(0)?, friction(1)?]);
         let [mu, preload] = friction_of_contacts(&setup.mechanism, &|k| self.sign(k) != 0.0);
         let load = self.held.answers(std::slice::from_ref(&self.held.load))?;
-        let circles = &setup.mechanism.friction_circles;
         let couples =
             answers(self.hinges.iter().map(|hinge| &setup.assembled.couples[hinge.circle]).collect())?;
         let turning = self.hinges.iter().zip(couples.column_iter());

@@ -166,7 +166,10 @@ impl Columns {
             let name = &mechanism.contacts[contact.index()].name;
             self.output(Output::Gap(contact.index()), format!("gap_acceleration.{name}"), "m/s^2");
         }
-        let rough = |index: usize| mechanism.friction_circle(JointId(index)).is_some();
+        let rough = |index: usize| {
+            let mut circles = mechanism.friction_circles.iter();
+            circles.any(|circle| circle.joint.index() == index)
+        };
         for index in (0..mechanism.joints.len()).filter(|&index| rough(index)) {
             self.add_hinge(mechanism, &layout, index);
         }
@@ -210,9 +213,14 @@ impl Columns {
                 self.output(Output::Unknown(place, sign), format!("{word}.{}", joint.name), "N");
             }
         }
-        if let Some(circle) = mechanism.friction_circles.iter().position(|circle| circle.joint == id) {
+        if let Some(circle) = mechanism.circle_of(id) {
             self.hinges.push(HingeColumns { joint: id, circle, output, sign });
             self.output(Output::Other, format!("friction_couple.{}", joint.name), "N m");
+        }
+        if mechanism.friction_circles.iter().any(|circle| circle.joint == id && circle.is_collar())
+            && let Some(place) = layout.reaction(Reaction::Carried(id, 0))
+        {
+            self.output(Output::Unknown(place, sign), format!("force_z.{}", joint.name), "N");
         }
     }
 

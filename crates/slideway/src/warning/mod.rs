@@ -285,7 +285,7 @@ fn wide_friction_circles(model: &Model, mechanism: &Mechanism) -> Vec<Fault> {
         let place = model.setting_of(&formulas).unwrap_or_else(|| joint.place.clone());
         (radius > distance).then(|| warning(doubt, place))
     };
-    mechanism.friction_circles.iter().filter_map(one).collect()
+    mechanism.friction_circles.iter().filter(|circle| !circle.is_collar()).filter_map(one).collect()
 }
 
 /// Of the other hinges of the bodies that a hinge joins, ground left out, the nearest at another place: its body, itself

@@ -50,6 +50,7 @@ mod redundant_rest;
 mod rest;
 mod space;
 mod space_pins;
+mod space_reference;
 mod space_rods;
 mod speeds;
 mod standing;

@@ -15,7 +15,7 @@ use slideway::standstill::{HoldOptions, Range, hold};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 
-const REFERENCE: &str = include_str!("../../../../reference/space.toml");
+pub(crate) const REFERENCE: &str = include_str!("../../../../reference/space.toml");
 
 #[derive(Deserialize)]
 struct Reference {
@@ -178,6 +178,12 @@ impl Case {
         let name = |label: &String| names.iter().find(|(other, _)| other == label).unwrap().1.clone();
         (text, self.labels.iter().map(name).collect())
     }
+}
+
+/// The names of the cases that are compared here.
+pub(crate) fn compared() -> Vec<String> {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    reference.case.into_iter().filter(Case::has_faces_alone).map(|case| case.name).collect()
 }
 
 fn text(report: &SolveReport) -> String {

@@ -2,6 +2,7 @@
 //! equations of their own.
 
 use crate::answers::{contact, report_on, try_report_on};
+use crate::space::REFERENCE;
 use nalgebra::{Matrix6, Vector3, Vector6};
 use serde::Deserialize;
 use slideway::limits::{LimitsOptions, limits};
@@ -11,8 +12,6 @@ use slideway::solve::{SolveOptions, solve, solve_with};
 use slideway::standstill::{HoldOptions, hold};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-
-const REFERENCE: &str = include_str!("../../../../reference/space.toml");
 
 #[derive(Deserialize)]
 struct Reference {
@@ -183,6 +182,12 @@ impl Case {
         };
         self.labels.iter().flat_map(of_label).collect()
     }
+}
+
+/// The names of the cases that are compared here.
+pub(crate) fn compared() -> Vec<String> {
+    let reference: Reference = toml::from_str(REFERENCE).unwrap();
+    reference.case.into_iter().filter(Case::is_on_rods).map(|case| case.name).collect()
 }
 
 fn text(report: &SolveReport) -> String {

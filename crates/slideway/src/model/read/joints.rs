@@ -1,8 +1,8 @@
 //! Hinges and the three sliding joints.
 
 use super::super::file::{
-    CarriedBy, Closed, ContactTable, End, Entry, Fit, HingeCarries, PadTable, PreloadLine, RestsOnTable,
-    SliderCarries, SliderTable, StopTable,
+    CarriedBy, Closed, ContactTable, End, Entry, Fit, PadTable, PreloadLine, RestsOnTable, SliderCarries,
+    SliderTable, StopTable,
 };
 use super::super::quantity::{Direction, PerSide, Quantity, Span};
 use super::super::sections::{JointContents, SliderContents};
@@ -25,19 +25,13 @@ fn touches(joint: &SliderTable) -> Touches {
     }
 }
 
-/// What a joint carries out of the drawing, if it says so.
+/// What a sliding joint carries out of the drawing, if it says so.
 fn carried(contents: &JointContents) -> Option<[bool; 3]> {
     match contents {
-        JointContents::Hinge(table) => table.carries.map(|carries| match carries {
-            HingeCarries::All => [true; 3],
-            HingeCarries::Z => [true, false, false],
-            HingeCarries::Tilt => [false, true, true],
-            HingeCarries::Nothing => [false; 3],
-        }),
         JointContents::Slider(slider) => slider.joint.carries.as_ref().map(|carries| {
             [SliderCarries::Z, SliderCarries::Roll, SliderCarries::Pitch].map(|one| carries.contains(&one))
         }),
-        JointContents::DiscOnDisc(_) => None,
+        JointContents::Hinge(_) | JointContents::DiscOnDisc(_) => None,
     }
 }
 
@@ -82,7 +76,15 @@ impl Reader<'_> {
             let kind = match &entry.contents {
                 None => continue,
                 Some(JointContents::Hinge(table)) => {
-                    JointKind::Hinge(Box::new(self.hinge(table, &entry.name, &entry.span)))
+                    let place = FaultPlace::model(entry.span.clone());
+                    let bearings = self.bearings(table, &entry.name, &entry.span).into_iter();
+                    joints.extend(bearings.map(|(end, carries, hinge)| Joint {
+                        name: Arc::from(entry.name.clone() + end),
+                        place: place.clone(),
+                        carries,
+                        kind: JointKind::Hinge(Box::new(hinge)),
+                    }));
+                    continue;
                 }
                 Some(JointContents::Slider(slider)) => {
                     JointKind::Slider(Box::new(self.slider(slider, &entry.name, &entry.span)))

@@ -48,6 +48,15 @@ fn slides(entry: &super::file::Entry<JointContents>) -> bool {
     !matches!(entry.contents, Some(JointContents::Hinge(_) | JointContents::DiscOnDisc(_)))
 }
 
+/// The names of a joint, of both bearings if it is a pin that has two, and whether it slides.
+fn names_of_joint(entry: &super::file::Entry<JointContents>) -> Vec<(String, bool)> {
+    let ends = match &entry.contents {
+        Some(JointContents::Hinge(table)) if table.bearings.is_some() => &hinges::ENDS[..],
+        _ => &[""],
+    };
+    ends.iter().map(|end| (entry.name.clone() + end, slides(entry))).collect()
+}
+
 /// Names of the coordinates that are angles.
 fn angles(sections: &Sections) -> Vec<String> {
     let is_angle = |entry: &&super::file::Entry<super::file::CoordinateTable>| {
@@ -127,7 +136,7 @@ impl<'t> Reader<'t> {
             points: BTreeMap::new(),
             owners: BTreeMap::new(),
             bodies: sections.bodies.iter().map(|entry| entry.name.clone()).collect(),
-            joints: sections.joints.iter().map(|entry| (entry.name.clone(), slides(entry))).collect(),
+            joints: sections.joints.iter().flat_map(names_of_joint).collect(),
             coordinates: sections.coordinates.iter().map(|entry| entry.name.clone()).collect(),
             angles: angles(sections),
             zero: FormulaId(0),

@@ -70,15 +70,12 @@ pub(super) fn rough_hinges(
     equations: &KineticEquations,
 ) -> Vec<RoughHinge> {
     let one = |circle: &FrictionCircle| {
-        let place = |axis| {
-            let place = equations.layout.reaction(Reaction::Hinge(circle.joint, axis));
-            place.expect("every hinge has its force")
-        };
+        let place = |force| equations.layout.reaction(force).expect("every hinge has its force");
         let ends = mechanism.hinge(circle.joint).map(|[first, second]| [(first, 1.0), (second, -1.0)]);
         let rotation = |(end, sign): (&Attachment, f64)| Some((3 * end.frame.body()?.index() + 2, sign));
         RoughHinge {
             id: circle.joint,
-            force: [0, 1].map(place),
+            force: circle.reactions().map(place),
             rotations: ends.into_iter().flatten().filter_map(rotation).collect(),
             radii: [circle.radius, circle.static_radius],
             velocity: spin(mechanism, configuration, circle.joint),

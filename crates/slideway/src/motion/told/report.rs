@@ -322,8 +322,7 @@ pub fn report(history: &History, options: &SimulateOptions) -> SimulateReport {
 
 /// The names of the hinges with friction.
 fn names_of_hinges(mechanism: &Mechanism) -> Vec<String> {
-    let joints = mechanism.friction_circles.iter().map(|circle| &mechanism.joints[circle.joint.index()]);
-    joints.map(|joint| joint.name.to_string()).collect()
+    (0..mechanism.friction_circles.len()).map(|circle| mechanism.circle_name(circle)).collect()
 }
 
 /// A load that jumps with a rate is friction without a state of rest; a limit on normal forces does not

@@ -169,8 +169,7 @@ fn columns(mechanism: &Mechanism) -> Vec<Column> {
             add(format!("{}.gap", contact.name), "m");
         }
     }
-    for circle in &mechanism.friction_circles {
-        let name = &mechanism.joints[circle.joint.index()].name;
+    for name in (0..mechanism.friction_circles.len()).map(|circle| mechanism.circle_name(circle)) {
         add(format!("{name}.force"), "N");
         add(format!("{name}.couple"), "N m");
         add(format!("{name}.angular_velocity"), "rad/s");
@@ -224,8 +223,9 @@ fn values(
             row.push(Some(if touches { 0.0 } else { gap() }));
         }
     }
-    for (hinge, [x, y, couple]) in sample.hinges.iter().zip(&forces.hinges) {
-        row.extend([x.zip(*y).map(|(x, y)| x.hypot(y)), *couple, Some(hinge.spin)]);
+    let hinges = sample.hinges.iter().zip(&forces.hinges).zip(&mechanism.friction_circles);
+    for ((hinge, [x, y, couple]), circle) in hinges {
+        row.extend([x.zip(*y).map(|(x, y)| circle.magnitude([x, y])), *couple, Some(hinge.spin)]);
     }
     row.extend(sample.efforts.iter().map(|effort| Some(*effort)));
     let energy = &sample.energy;

@@ -85,12 +85,12 @@ pub(crate) fn never_turning(mechanism: &Mechanism, configuration: &Configuration
 /// The fault of a hinge with friction that does not turn, or of a round end that does not slide.
 pub(super) fn does_not_turn(mechanism: &Mechanism, circle: usize, why: NoSliding) -> Fault {
     let FrictionCircle { joint, end, .. } = mechanism.friction_circles[circle];
-    let Joint { name, place, .. } = &mechanism.joints[joint.index()];
+    let Joint { place, .. } = &mechanism.joints[joint.index()];
     if let Some([along_n, _]) = end {
         let contacts = vec![mechanism.contacts[along_n.index()].name.to_string()];
         return Fault::new(FaultKind::ZeroSlidingVelocity { contacts, why }, place.clone());
     }
-    Fault::new(FaultKind::HingeDoesNotTurn { hinge: name.to_string(), why }, place.clone())
+    Fault::new(FaultKind::HingeDoesNotTurn { hinge: mechanism.circle_name(circle), why }, place.clone())
 }
 
 /// The sense in which each of these hinges turns, or why it does not; of round ends, in which the block slides.

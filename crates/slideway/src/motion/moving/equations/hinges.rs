@@ -8,8 +8,8 @@
 
 use super::{Equations, Failure, Sticks};
 use crate::ids::{Frame, JointId};
-use crate::kinetics::{Layout, Reaction};
-use crate::mechanism::{CoordinateKind, Mechanism};
+use crate::kinetics::Layout;
+use crate::mechanism::{CoordinateKind, FrictionCircle, Mechanism};
 use crate::pattern::Phase;
 
 /// More steps of Newton's method are not taken.
@@ -33,11 +33,12 @@ pub(super) struct RoughHinge {
 
 /// The hinges with friction, not yet in a phase.
 pub(super) fn rough_hinges(mechanism: &Mechanism, layout: &Layout) -> Vec<RoughHinge> {
-    let one = |joint: JointId| {
-        let place = |axis| layout.reaction(Reaction::Hinge(joint, axis)).expect("every hinge has its force");
+    let one = |circle: &FrictionCircle| {
+        let place = |force| layout.reaction(force).expect("every hinge has its force");
+        let joint = circle.joint;
         RoughHinge {
             joint,
-            force: [0, 1].map(place),
+            force: circle.reactions().map(place),
             couple: signed_rotations(mechanism, joint)
                 .filter_map(|(frame, sign)| Some((3 * frame.body()?.index() + 2, sign)))
                 .collect(),
@@ -45,7 +46,7 @@ pub(super) fn rough_hinges(mechanism: &Mechanism, layout: &Layout) -> Vec<RoughH
             direction: [0.0; 2],
         }
     };
-    mechanism.friction_circles.iter().map(|circle| one(circle.joint)).collect()
+    mechanism.friction_circles.iter().map(one).collect()
 }
 
 /// The bodies of a hinge, with the sign with which their rotation counts.
