@@ -290,15 +290,15 @@ fn a_new_model_is_asked_for() {
     folder.write("taken.toml", "mine");
     // A misspelt name, a number that no template has, the first one; the L of the template, a wrong unit, a number
     // without one, which is not right, then a right one; an end of the input (Ctrl-D) before mu; a file that is there.
-    let typed = "drawr\n12\n1\n\n300 kg\n30\nn\n300\n\n\u{4}taken\nn\nmine\n";
+    let typed = "drawr\n13\n1\n\n300 kg\n30\nn\n300\n\n\u{4}taken\nn\nmine\n";
     let (told, code) = typing(typed, &mut folder.command(&["new"]));
     assert_eq!(code, 0, "{told}");
     let (told, _) = without_styles(&told);
     for says in [
         " 1  drawer        A drawer, or anything else that is guided over a length and\n",
-        "11  peg           A peg",
+        "12  peg           A peg",
         "Number or name: There is no template `drawr`: did you mean `drawer`?\n",
-        "Number or name: There is no template `12`: type a number from 1 to 11, or a name.\n",
+        "Number or name: There is no template `13`: type a number from 1 to 12, or a name.\n",
         "L, length over which it is guided [400 mm]: ",
         "Not possible: a mass where a length is expected.\n",
         "a, distance of the push from the middle [150 mm]: 30 mm? [Enter: yes] a, distance",

@@ -2081,6 +2081,9 @@ class JointSummary(Record):
     """The stops at the least and at the greatest displacement, if there are any."""
     friction_radii: tuple[float, float] | None = None
     """Radii of the friction circle of a hinge with friction (m): while it turns, and at rest."""
+    collar_radii: tuple[float, float] | None = None
+    """The friction couples of the collar of a hinge by its force along z, turning and at rest (m); absent
+    without."""
     gaps: NDArray[np.float64] = field(default_factory=lambda: _mixins.EMPTY)
     """The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both
     are."""
@@ -3017,7 +3020,7 @@ class Solution(_mixins.Solution, Record):
     round_ends: tuple[RoundEnd, ...] = ()
     """The ends of blocks on round rods; absent without."""
     carried: tuple[Carried, ...] = ()
-    """What joints carry out of the drawing without friction; absent of a planar model."""
+    """What joints carry out of the drawing, and the friction of their collars; absent of a planar model."""
     bodies: tuple[Body, ...]
     """The accelerations of the bodies."""
     coordinates: tuple[CoordinateAcceleration, ...]

@@ -30,7 +30,7 @@ use crate::fault::Faults;
 use crate::ids::{ContactId, JointId};
 use crate::influence::Influence;
 use crate::kinetics::{Assembled, KineticEquations};
-use crate::mechanism::{CoordinateKind, JointKind, Mechanism, Slider};
+use crate::mechanism::{CoordinateKind, FrictionCircle, JointKind, Mechanism, Slider};
 use crate::model::{Coordinate, Model, SliderKind};
 use crate::progress::{Callback, Work, undisturbed, watched};
 use crate::report::finite;
@@ -223,6 +223,7 @@ fn joints(mechanism: &Mechanism, configuration: &Configuration) -> Vec<JointSumm
             overlap: slider.and_then(|slider| configuration.overlap(mechanism, slider)),
             stops: slider.map(|slider| slider.stops).filter(|stops| *stops != [None; 2]),
             friction_radii: circle.map(|circle| [circle.radius, circle.static_radius]),
+            collar_radii: mechanism.collar_of(JointId(index)).map(FrictionCircle::radii_by_force),
         }
     };
     mechanism.joints.iter().enumerate().map(one).collect()

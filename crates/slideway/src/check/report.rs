@@ -171,6 +171,9 @@ pub struct JointSummary {
     /// Radii of the friction circle of a hinge with friction (m): while it turns, and at rest.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub friction_radii: Option<[f64; 2]>,
+    /// The friction couples of the collar of a hinge by its force along z, turning and at rest (m); absent without.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub collar_radii: Option<[f64; 2]>,
     /// The gaps of what is apart from its face (m); of a block those of the front and of the rear corner, if both are.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub gaps: Vec<f64>,

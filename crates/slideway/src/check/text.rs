@@ -270,11 +270,14 @@ impl Text<'_> {
         }
         let length = report.units.of("m");
         let circle = |joint: &JointSummary| {
-            let [turning, at_rest] = joint.friction_radii?;
-            let rest = if at_rest == turning { String::new() } else { length.number(at_rest) };
-            Some(vec![joint.name.clone(), length.number(turning), rest])
+            let of_pin = joint.friction_radii.map(|radii| (joint.name.clone(), radii));
+            let of_collar = joint.collar_radii.map(|radii| (format!("{}.collar", joint.name), radii));
+            [of_pin, of_collar].into_iter().flatten().map(|(name, [turning, at_rest])| {
+                let rest = if at_rest == turning { String::new() } else { length.number(at_rest) };
+                vec![name, length.number(turning), rest]
+            })
         };
-        let circles: Vec<Vec<String>> = report.joints.iter().filter_map(circle).collect();
+        let circles: Vec<Vec<String>> = report.joints.iter().flat_map(circle).collect();
         let header = ["hinge", &length.title("friction circle, radius"), &length.title("radius at rest")];
         self.rows(&header, &circles);
         if report.joints.iter().any(|joint| joint.stops.into_iter().flatten().any(|stop| stop.is_some())) {

@@ -387,6 +387,12 @@ impl FrictionCircle {
         }
     }
 
+    /// Its radii by the force of which its friction is a part: of a collar its one force.
+    pub(crate) fn radii_by_force(&self) -> [f64; 2] {
+        let part = self.magnitude([FRAC_1_SQRT_2; 2]);
+        [self.radius, self.static_radius].map(|radius| radius / part)
+    }
+
     /// The magnitude of which its friction is a part: of a collar that of its one force.
     pub(crate) fn magnitude(&self, [x, y]: [f64; 2]) -> f64 {
         if self.is_collar() { x.abs() } else { x.hypot(y) }
@@ -913,6 +919,11 @@ impl<T: Real> Mechanism<T> {
     /// The friction of a hinge, if the model gives it; not that of its collar.
     pub fn friction_circle(&self, joint: JointId) -> Option<&FrictionCircle<T>> {
         self.circle_of(joint).map(|circle| &self.friction_circles[circle])
+    }
+
+    /// The friction of the collar of a hinge, if it has one.
+    pub(crate) fn collar_of(&self, joint: JointId) -> Option<&FrictionCircle<T>> {
+        self.friction_circles.iter().find(|circle| circle.joint == joint && circle.is_collar())
     }
 
     /// The number of the friction circle of a hinge.

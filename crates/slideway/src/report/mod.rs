@@ -344,7 +344,7 @@ pub struct Solution {
     /// The ends of blocks on round rods; absent without.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub round_ends: Vec<RoundEnd>,
-    /// What joints carry out of the drawing without friction; absent of a planar model.
+    /// What joints carry out of the drawing, and the friction of their collars; absent of a planar model.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub carried: Vec<Carried>,
     /// The accelerations of the bodies.

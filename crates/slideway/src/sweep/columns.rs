@@ -217,7 +217,7 @@ impl Columns {
             self.hinges.push(HingeColumns { joint: id, circle, output, sign });
             self.output(Output::Other, format!("friction_couple.{}", joint.name), "N m");
         }
-        if mechanism.friction_circles.iter().any(|circle| circle.joint == id && circle.is_collar())
+        if mechanism.collar_of(id).is_some()
             && let Some(place) = layout.reaction(Reaction::Carried(id, 0))
         {
             self.output(Output::Unknown(place, sign), format!("force_z.{}", joint.name), "N");
