@@ -661,10 +661,7 @@ impl FaultKind {
             Self::UnknownKey { nearest, known, .. } | Self::UnknownName { nearest, known, .. } => {
                 choose(nearest.as_deref(), known)
             }
-            Self::UnknownWord { word, .. } if word == "feet" => {
-                Some("feet that slide along a guide are `supports` of its block: `{ at, aside, normal = \"90 deg\", mu }`; what turns on feet is not known".to_owned())
-            }
-            Self::UnknownWord { nearest, known, .. } => choose(nearest.as_deref(), known),
+            Self::UnknownWord { word, nearest, known, .. } => choose_word(word, nearest.as_deref(), known),
             Self::NoHeading { section } => Some(format!("write `[{section}.NAME]` above these lines")),
             Self::MissingType { known, .. } => Some(format!("possible types: {}", known.join(", "))),
             Self::NotOwned { body, point, owners } => Some(ownership_hint(body, point, owners)),
@@ -962,6 +959,15 @@ impl FaultKind {
 /// A number of states, which may be beyond what is counted.
 fn counted(states: u64) -> String {
     if states == u64::MAX { format!("more than {states}") } else { states.to_string() }
+}
+
+/// What to write in place of a word.
+fn choose_word(word: &str, nearest: Option<&str>, known: &[String]) -> Option<String> {
+    if word == "feet" {
+        let supports = "`{ at, aside, normal = \"90 deg\", mu }`; what turns on feet is not known";
+        return Some(format!("feet that slide along a guide are `supports` of its block: {supports}"));
+    }
+    choose(nearest, known)
 }
 
 fn choose(nearest: Option<&str>, known: &[String]) -> Option<String> {

@@ -166,7 +166,7 @@ impl Naming {
             }
             EndCause::OutputBound(bounds) => self.mechanism.guided_sliders(bounds),
             EndCause::HingeUnloaded(hinges) => {
-                hinges.iter().map(|&hinge| self.hinge(circles[hinge]).to_owned()).collect()
+                hinges.iter().map(|&hinge| self.hinge(circles[hinge])).collect()
             }
             EndCause::Range
             | EndCause::Singular
