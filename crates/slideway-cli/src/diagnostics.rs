@@ -11,6 +11,7 @@ use slideway::fault::{Fault, FaultKind, Place, Source};
 use slideway::model::SettingKind;
 use slideway::printable;
 use slideway::raw_problem::{RawFault, RawFaults};
+use slideway::report::Style;
 use std::borrow::Cow;
 use std::io;
 use std::ops::Range;
@@ -42,23 +43,24 @@ pub(crate) fn note(note: &Note) -> String {
 
 /// Builds the line that says what is wrong.
 fn title(level: Level<'static>, message: &str) -> Title<'static> {
-    level.primary_title(on_screen(message, TITLE))
+    let width = terminal_width().unwrap_or(usize::MAX);
+    level.primary_title(in_lines(message, width.saturating_sub(TITLE)))
 }
 
 /// Builds the line that says what to do about it.
 fn help(hint: &str) -> Message<'static> {
-    Level::HELP.message(on_screen(hint, HINT))
+    let width = terminal_width().unwrap_or(Style::PLAIN.width);
+    Level::HELP.message(in_lines(hint, width.saturating_sub(HINT)))
 }
 
-/// A text on one line or, on a terminal, on as many as fit beside so many columns before it.
-fn on_screen(text: &str, before: usize) -> String {
-    let text = printable::line(text);
-    match terminal_size_of(io::stderr()) {
-        Some((Width(columns), _)) if columns > 0 => {
-            wrapped(&text, usize::from(columns).saturating_sub(before)).join("\n")
-        }
-        _ => text.into_owned(),
-    }
+/// Returns the width of the terminal, none elsewhere: a message stays on its line where programs look for it.
+fn terminal_width() -> Option<usize> {
+    terminal_size_of(io::stderr()).map(|(Width(columns), _)| usize::from(columns)).filter(|width| *width > 0)
+}
+
+/// A text on as many lines of at most this width as it needs.
+fn in_lines(text: &str, width: usize) -> String {
+    wrapped(&printable::line(text), width).join("\n")
 }
 
 /// Where it is.

@@ -106,7 +106,7 @@ impl Painter<'_> {
     }
 
     /// One area made of several.
-    fn union(&mut self, parts: &[Vec<Point>]) {
+    pub(super) fn union(&mut self, parts: &[Vec<Point>]) {
         for class in [Class::BodyEdge, Class::Body] {
             for part in parts {
                 self.area(class, part.clone());
@@ -271,14 +271,18 @@ impl Painter<'_> {
         }
     }
 
-    /// The part of a bar that is not in a face on which a corner of its body stands.
+    /// The part of a bar that is not in a face on which its own end stands.
     fn on_free_side(&self, body: BodyId, bar: Vec<Point>) -> Vec<Point> {
         const FAR: f64 = 1e5;
         let stands = |slide: &&Slide| {
             let is_corner = slide.kind == SliderKind::Pin && !slide.is_disc && slide.round.is_none();
-            is_corner && slide.look == Look::Face(1.0) && slide.block_frame == Frame::Body(body)
+            let corner = slide.block.origin;
+            let above = (corner - slide.guide.origin).dot(&slide.guide.across) + slide.half_channel();
+            let is_near = above < BAR && is_inside(&bar, corner);
+            is_corner && slide.look == Look::Face(1.0) && slide.block_frame == Frame::Body(body) && is_near
         };
-        self.sliders.iter().flatten().filter(stands).fold(bar, |bar, slide| {
+        let standing: Vec<&Slide> = self.sliders.iter().flatten().filter(stands).collect();
+        standing.into_iter().fold(bar.clone(), |bar, slide| {
             clipped(&bar, &slide.guide.rectangle([-FAR, FAR], [-slide.half_channel(), FAR]))
         })
     }

@@ -1,7 +1,9 @@
 //! The cross-section of a guide: its faces, its block, and all forces across it.
 
 use super::loads::RING;
+use super::outline::capsule;
 use super::scene::{Anchor, Bounds, Class, Point, Scene, Shape, Text};
+use super::slide::BAR;
 use super::{ContactStates, Painter, SceneOptions, VALUE_SIZE, View, labels};
 use nalgebra::Vector2;
 use slideway::configuration::Configuration;
@@ -180,12 +182,7 @@ impl<'a> Painter<'a> {
     }
 
     fn draw_section(&mut self, section: &Section<'_>, loads: Vec<Load>) {
-        if let Some([least, greatest]) = self.outline_in_section(section) {
-            let corners = [least, Place::new(greatest.x, least.y), greatest, Place::new(least.x, greatest.y)];
-            let corners: Vec<Point> = corners.iter().map(|corner| section.drawn(*corner)).collect();
-            self.area(Class::BodyEdge, corners.clone());
-            self.area(Class::Body, corners);
-        }
+        self.body_in_section(section, &loads);
         let contacts = self.in_section(section);
         let ends: Vec<[usize; 2]> = self
             .mechanism
@@ -231,6 +228,25 @@ impl<'a> Painter<'a> {
             }
         }
         self.axes_of_section();
+    }
+
+    /// The body of the block, with an arm to each load outside of it.
+    fn body_in_section(&mut self, section: &Section<'_>, loads: &[Load]) {
+        let outline = self.outline_in_section(section);
+        let [least, greatest] = outline.unwrap_or([Place::zeros(); 2]);
+        let box_of = |[least, greatest]: [Place; 2]| {
+            [least, Place::new(greatest.x, least.y), greatest, Place::new(least.x, greatest.y)]
+                .map(|corner| section.drawn(corner))
+                .to_vec()
+        };
+        let mut parts: Vec<Vec<Point>> = outline.map(box_of).into_iter().collect();
+        for load in loads {
+            let nearest = load.place.sup(&least).inf(&greatest);
+            if nearest != load.place {
+                parts.push(capsule(section.drawn(nearest), section.drawn(load.place), BAR));
+            }
+        }
+        self.union(&parts);
     }
 
     /// The pad of a contact, and the faces on which it may press.

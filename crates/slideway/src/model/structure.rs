@@ -23,19 +23,21 @@ pub(super) struct StructureCheck<'s> {
     faults: Faults,
     /// The keys that lead to the value under examination.
     path: Vec<String>,
-    mends: Vec<Mend>,
+    mends: Vec<Mend<'s>>,
 }
 
 /// How the value at the end of a path of keys becomes readable.
-struct Mend {
+struct Mend<'s> {
     path: Vec<String>,
-    with: StandIn,
+    with: StandIn<'s>,
 }
 
 /// Stand-in that takes the place of a value.
 #[derive(Clone, Copy)]
-enum StandIn {
+enum StandIn<'s> {
     Text,
+    /// This word.
+    Word(&'s str),
     Pair,
     True,
     /// Nothing: the key is taken out.
@@ -58,7 +60,7 @@ impl<'s> StructureCheck<'s> {
     /// Puts stand-ins for what is missing or faulty in the value at the end of `path`; whether it can be read
     /// then.
     pub(super) fn mend(&self, path: &[&str], value: &mut Spanned<DeValue<'_>>) -> bool {
-        let within = |mend: &&Mend| mend.path.iter().zip(path).all(|(key, wanted)| key == wanted);
+        let within = |mend: &&Mend<'_>| mend.path.iter().zip(path).all(|(key, wanted)| key == wanted);
         self.mends.iter().filter(within).all(|mend| match mend.path.get(path.len()..) {
             Some(keys) => mend.apply(keys, value),
             None => false,
@@ -76,7 +78,7 @@ impl<'s> StructureCheck<'s> {
     }
 
     /// Records a fault, and how the value at the present path is to be mended.
-    fn push(&mut self, kind: FaultKind, span: Span, with: StandIn) {
+    fn push(&mut self, kind: FaultKind, span: Span, with: StandIn<'s>) {
         self.mends.push(Mend { path: self.path.clone(), with });
         self.record(kind, span);
     }
@@ -140,6 +142,7 @@ impl<'s> StructureCheck<'s> {
             let inner = if place.is_empty() { name.to_owned() } else { format!("{place}.{name}") };
             let of_map = schema.get("additionalProperties").filter(|s| s.is_object());
             match properties.and_then(|properties| properties.get(name)).or(of_map) {
+                Some(tag) if tag.get("const").is_some() => (),
                 Some(schema) => {
                     self.path.push(name.to_owned());
                     self.value(value, schema, &inner);
@@ -150,7 +153,9 @@ impl<'s> StructureCheck<'s> {
         }
         let required = schema.get("required").and_then(Schema::as_array);
         let required = required.into_iter().flatten().filter_map(Schema::as_str);
-        let missing: Vec<&str> = required.filter(|key| !table.contains_key(*key)).collect();
+        // The tag of an alternative is the affair of `tagged`.
+        let is_tag = |key: &str| properties.is_some_and(|all| all[key].get("const").is_some());
+        let missing: Vec<&str> = required.filter(|key| !table.contains_key(*key) && !is_tag(key)).collect();
         // A mistyped key is one fault, even where the key that was meant is required.
         let absent = missing.iter().filter(|key| !misspelt.iter().any(|meant| meant == *key));
         for key in absent {
@@ -189,7 +194,7 @@ impl<'s> StructureCheck<'s> {
     }
 
     /// Returns the stand-in for a value of this schema.
-    fn stand_in(&self, schema: &'s Schema) -> StandIn {
+    fn stand_in(&self, schema: &'s Schema) -> StandIn<'s> {
         let schema = self.resolve(schema);
         if schema.get("enum").is_some() {
             return StandIn::Removed;
@@ -262,15 +267,37 @@ impl<'s> StructureCheck<'s> {
             return self.wrong_type(value, vec!["table"], place, StandIn::Impossible);
         };
         let names: Vec<&str> = tags.iter().map(|(tag, _)| *tag).collect();
-        let Some(tag) = table.get("type") else {
-            let kind = FaultKind::MissingType { table: place.to_owned(), known: owned(&names) };
-            self.push(kind, value.span(), StandIn::Impossible);
-            return;
-        };
-        match tags.iter().find(|(name, _)| Some(*name) == tag.get_ref().as_str()) {
-            Some((_, schema)) => self.table(table, &value.span(), schema, place),
-            None => self.word(tag, &names, &format!("{place}.type"), StandIn::Impossible),
+        let meant = self.meant(table, tags);
+        let with = meant.map_or(StandIn::Impossible, |(word, _)| StandIn::Word(word));
+        self.path.push("type".to_owned());
+        match table.get("type") {
+            Some(tag) => self.word(tag, &names, &format!("{place}.type"), with),
+            None => {
+                let kind = FaultKind::MissingType { table: place.to_owned(), known: owned(&names) };
+                self.push(kind, value.span(), with);
+            }
         }
+        self.path.pop();
+        if let Some((_, schema)) = meant {
+            self.table(table, &value.span(), schema, place);
+        }
+    }
+
+    /// Returns the alternative that the `type` of a table names or nearly names, else the only one that has all keys that
+    /// were written: its other faults are told beside that of its type.
+    fn meant(&self, table: &DeTable<'_>, tags: &[(&'s str, &'s Schema)]) -> Option<(&'s str, &'s Schema)> {
+        let written = table.get("type").and_then(|tag| tag.get_ref().as_str());
+        let nearest = written.and_then(|word| nearest(word, tags.iter().map(|(tag, _)| *tag)));
+        let named = |word: &str| tags.iter().find(|(tag, _)| *tag == word).copied();
+        if let Some(found) = written.and_then(named).or(nearest.as_deref().and_then(named)) {
+            return Some(found);
+        }
+        let has_all = |schema: &Schema| {
+            let keys = self.resolve(schema).get("properties").and_then(Schema::as_object);
+            keys.is_some_and(|keys| table.keys().all(|key| keys.contains_key(key.get_ref().as_ref())))
+        };
+        let mut fitting = tags.iter().filter(|(_, schema)| has_all(schema));
+        fitting.next().filter(|_| fitting.next().is_none()).copied()
     }
 
     /// One of several words, each with its description (an enumeration with documented variants).
@@ -279,7 +306,7 @@ impl<'s> StructureCheck<'s> {
         self.word(value, &words, place, StandIn::Removed);
     }
 
-    fn word(&mut self, value: &Spanned<DeValue<'_>>, words: &[&str], place: &str, with: StandIn) {
+    fn word(&mut self, value: &Spanned<DeValue<'_>>, words: &[&str], place: &str, with: StandIn<'s>) {
         let Some(text) = value.get_ref().as_str() else {
             return self.wrong_type(value, vec!["text"], place, with);
         };
@@ -300,7 +327,7 @@ impl<'s> StructureCheck<'s> {
         value: &Spanned<DeValue<'_>>,
         wanted: Vec<&'static str>,
         place: &str,
-        with: StandIn,
+        with: StandIn<'s>,
     ) {
         let mut unique: Vec<&str> = Vec::new();
         for kind in wanted.into_iter().filter(|kind| *kind != "nothing").map(with_article) {
@@ -338,7 +365,7 @@ impl<'s> StructureCheck<'s> {
     }
 }
 
-impl StandIn {
+impl StandIn<'_> {
     /// The one that fits where both would.
     fn simpler(self, other: Self) -> Self {
         match (self, other) {
@@ -354,12 +381,13 @@ impl StandIn {
     }
 }
 
-impl Mend {
+impl Mend<'_> {
     /// Mends the value at the end of `keys`; whether that was possible.
     fn apply(&self, keys: &[String], value: &mut Spanned<DeValue<'_>>) -> bool {
         let span = value.span();
         let text = || Spanned::new(span.clone(), DeValue::String(STAND_IN.into()));
         let stand_in = match self.with {
+            StandIn::Word(word) => DeValue::String(word.to_owned().into()),
             StandIn::Text => text().into_inner(),
             StandIn::Pair => DeValue::Array([text(), text()].into_iter().collect()),
             StandIn::True => DeValue::Boolean(true),
