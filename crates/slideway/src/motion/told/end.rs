@@ -5,11 +5,31 @@ use crate::ids::JointId;
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, is_wedged, moving};
-use crate::motion::record::history::{End, History};
-use crate::report::{SHOWN_BY, it_tips};
+use crate::motion::record::history::{End, History, PhaseInterval};
+use crate::report::{SHOWN_BY, capital, it_tips};
 
-/// The end in a sentence.
+/// The end in a sentence, and that a block tips on the way.
 pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> String {
+    let end = end(history, options);
+    tipping(history).map_or(end.clone(), |tips| format!("{end} {tips}"))
+}
+
+/// "It tips (shoes) from 0 s on.", "It tips (shoes), first at 0.2 s."; none where nothing does, or the end says so.
+fn tipping(history: &History) -> Option<String> {
+    let mechanism = &history.mechanism;
+    let tipped = |interval: &PhaseInterval| {
+        let is_closed = |k: usize| !interval.phase.is_open(mechanism, k);
+        mechanism.tipped_where(|k| mechanism.contacts[k].opens.then(|| is_closed(k)))
+    };
+    let ends = matches!(history.end, End::OutOfPlane(_) | End::Tips(_));
+    let mut later = history.phases.iter().map(|interval| (interval.from, tipped(interval)));
+    let (from, joints) = later.find(|(_, joints)| !joints.is_empty()).filter(|_| !ends)?;
+    let (tips, at) = (capital(&it_tips(&joints)), mechanism.units.of("s").brief(from));
+    let goes_on = later.all(|(_, joints)| !joints.is_empty());
+    Some(if goes_on { format!("{tips} from {at} on.") } else { format!("{tips}, first at {at}.") })
+}
+
+fn end(history: &History, options: &SimulateOptions) -> String {
     let mechanism = &history.mechanism;
     let time = history.mechanism.units.of("s").brief(history.stop());
     let joint = |joint: &JointId| &mechanism.joints[joint.index()].name;
