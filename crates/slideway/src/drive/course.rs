@@ -2,7 +2,9 @@
 
 use super::efforts::{Efforts, GROWTH};
 use super::peak::{SAME_ROW, peaks};
-use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, LockedRange, Sense, TipsOver};
+use super::report::{
+    Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, LockedRange, Sense, TipsOver,
+};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
 use crate::ids::ContactId;
@@ -67,16 +69,7 @@ pub(super) fn direction(
     let sampled = found.method == Method::Bracketing;
     Ok((
         Guarantee { sampled, words: guarantee(&found, &varied.shown_in) },
-        CourseDirection {
-            direction,
-            rows,
-            modes,
-            blow_ups,
-            peaks,
-            tips,
-            locked,
-            without_mode_problem,
-        },
+        CourseDirection { direction, rows, modes, blow_ups, peaks, tips, locked, without_mode_problem },
     ))
 }
 

@@ -51,17 +51,29 @@ pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
     let stops = |way: &CourseDirection| {
         let over = if way.direction == Sense::Model { "Over" } else { "Backwards, over" };
         let jams = way.locked.iter().map(|jams| ([jams.from, jams.to], "jams".to_owned()));
-        let tips = way.tips.iter().map(|tips| {
-            ([tips.from, tips.to], it_tips(&tips.joints).trim_start_matches("it ").to_owned())
-        });
+        let tips = way
+            .tips
+            .iter()
+            .map(|tips| ([tips.from, tips.to], it_tips(&tips.joints).trim_start_matches("it ").to_owned()));
         let mut stops: Vec<([f64; 2], String)> = jams.chain(tips).collect();
         stops.sort_by(|one, other| one.0[0].total_cmp(&other.0[0]));
         let told: Vec<String> =
             stops.iter().map(|(ends, what)| format!("{what} {}", stretch(vary, *ends))).collect();
-        (!told.is_empty()).then(|| format!("{over} {range}, it {}.", told.join(" and ")))
+        (!told.is_empty()).then(|| format!("{over} {range}, it {}.", in_turn(&told)))
     };
     let peaks = course.directions.iter().flat_map(|way| way.peaks.iter().map(move |peak| (way, peak)));
     course.directions.iter().filter_map(stops).chain(peaks.filter_map(|(way, peak)| one(way, peak))).collect()
+}
+
+/// "jams below 2 m and tips from 4 m on", with commas between more.
+fn in_turn(parts: &[String]) -> String {
+    match parts {
+        [first @ .., before, last] => {
+            let first: String = first.iter().map(|part| format!("{part}, ")).collect();
+            format!("{first}{before} and {last}")
+        }
+        parts => parts.concat(),
+    }
 }
 
 /// A part of the range: "from 1524 mm on", "below 20 mm", "from 1524 to 1658 mm", "throughout".
@@ -279,7 +291,12 @@ fn tipping(direction: &DriveDirection) -> Option<String> {
 fn outlook(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Vec<String> {
     let at = |factor: f64| times_friction(factor, direction.mu.map(|mu| factor * mu));
     let others = direction.another_count.map(|changes| {
-        format!("from {} it may also move otherwise: `solve` with that friction shows how", at(changes))
+        let both = if direction.direction == Sense::Reversed { " --both-directions" } else { "" };
+        let range = format!("1..{}", (2.0 * changes).ceil());
+        format!(
+            "from {} it can also move in another way (`limits --vary friction={range}{both}` shows it)",
+            at(changes)
+        )
     });
     match jam(report, direction, is_advised) {
         Some(never) if direction.never_jams => {
@@ -298,7 +315,10 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
         if let Some(factor) = direction.unique_at_least {
-            return Some(format!("it does not jam even with {}", times(factor)));
+            return Some(match effort::is_any_friction(factor) {
+                true => "it does not jam, whatever the friction".to_owned(),
+                false => format!("it does not jam even with {}", times(factor)),
+            });
         }
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;

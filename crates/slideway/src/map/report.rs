@@ -263,7 +263,9 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
             match (solutions, tipping) {
                 (0, _) => format!("no solution{gaps}"),
                 (several, 0) => format!("{}{gaps}", solutions_in_words(*several)),
-                (several, _) => format!("{}{gaps}: {}", solutions_in_words(*several), tips(*tipping, *several)),
+                (several, _) => {
+                    format!("{}{gaps}: {}", solutions_in_words(*several), tips(*tipping, *several))
+                }
             }
         }
         ClassMeaning::Modes { patterns } => {

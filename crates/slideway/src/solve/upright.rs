@@ -48,9 +48,8 @@ impl Upright {
         })?;
         let there = modes.into_iter().map(|mode| of(mode)[1]);
         let there = there.filter(|end| is_same_end(until.max(end.at), until.min(end.at)));
-        let tips = there
-            .flat_map(|end| tips_beyond((existence, mechanism), (until, &end.cause), way))
-            .collect();
+        let tips =
+            there.flat_map(|end| tips_beyond((existence, mechanism), (until, &end.cause), way)).collect();
         Some(Self { until, tips: distinct(tips) })
     }
 }
@@ -142,7 +141,9 @@ fn tips_beyond(
     }
     let beyond = ends(&existence.modes).filter(|end| way * end > way * at);
     let beyond = beyond.filter(|end| !is_same_end(end.max(at), end.min(at)));
-    let Some(next) = beyond.min_by(|one, other| (way * one).total_cmp(&(way * other))) else { return Vec::new() };
+    let Some(next) = beyond.min_by(|one, other| (way * one).total_cmp(&(way * other))) else {
+        return Vec::new();
+    };
     match happens((existence, mechanism), [at.min(next), at.max(next)], is_same_end) {
         Happens::Tips(joints) => joints,
         Happens::Moves | Happens::Nothing => Vec::new(),

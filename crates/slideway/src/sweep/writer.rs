@@ -142,7 +142,13 @@ impl Writer<'_> {
         let negative_determinant = Some(state.negative_determinant);
         let verdict = self.verdict(pattern);
         let tips = !self.stages.openings.is_empty() && !self.mechanism.tipped(pattern).is_empty();
-        rows.heads.push(RowHead { kind, tips, verdict, negative_determinant, ..head(point, PointStatus::None) });
+        rows.heads.push(RowHead {
+            kind,
+            tips,
+            verdict,
+            negative_determinant,
+            ..head(point, PointStatus::None)
+        });
         *if in_gap { &mut counts.gap_states } else { &mut counts.solutions } += 1;
         Some(())
     }

@@ -1,6 +1,7 @@
 //! Why a motion ends, as a kind and as a sentence.
 
 use super::stick_slip::stick_slip;
+use crate::fault::{Fault, FaultKind};
 use crate::ids::JointId;
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
@@ -91,6 +92,9 @@ fn end(history: &History, options: &SimulateOptions) -> String {
             options.most_events
         ),
         End::NoValue(faults) => format!("It ends at {time}: {}.", first(faults)),
+        End::Undecided(faults) if faults.sorted().first().copied().is_some_and(is_blocked) => {
+            format!("It ends at {time}: {}.", first(faults))
+        }
         End::Undecided(faults) => format!("Not decided what follows after {time}: {}.", first(faults)),
         End::Interrupted => {
             format!("Not finished: it was followed to {time}, then interrupted. Allow it more time.")
@@ -161,6 +165,11 @@ fn jams_on_the_way(jams: usize) -> String {
 /// The words of the last event.
 fn last_words(history: &History) -> &str {
     history.events.last().map_or("an event", |event| &event.words)
+}
+
+/// Whether a drive meets what stops it.
+fn is_blocked(fault: &Fault) -> bool {
+    matches!(fault.kind, FaultKind::DriveBlocked { .. })
 }
 
 fn first(faults: &crate::fault::Faults) -> String {
