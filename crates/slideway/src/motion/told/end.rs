@@ -20,7 +20,10 @@ fn tipping(history: &History) -> Option<String> {
     let mechanism = &history.mechanism;
     let tipped = |interval: &PhaseInterval| {
         let is_closed = |k: usize| !interval.phase.is_open(mechanism, k);
-        mechanism.tipped_where(|k| mechanism.contacts[k].opens.then(|| is_closed(k)))
+        // What rattles between both faces of its guide does not tip.
+        let is_loose =
+            |k: usize| mechanism.slider(mechanism.contacts[k].joint).is_some_and(|slider| slider.loose);
+        mechanism.tipped_where(|k| (mechanism.contacts[k].opens && !is_loose(k)).then(|| is_closed(k)))
     };
     let ends = matches!(history.end, End::OutOfPlane(_) | End::Tips(_));
     let mut later = history.phases.iter().map(|interval| (interval.from, tipped(interval)));
