@@ -924,18 +924,12 @@ impl FaultKind {
             Self::NotFollowed { .. } => Some(
                 "this is a dead centre of the coordinates or a point where branches meet: draw the mechanism beyond it, or choose coordinates that continue there",
             ),
-            Self::NoFreedom { may_open: true } => Some(
-                "a closed contact is all that stops it: write `closed = false` there, draw it a little open or give the coordinate such a value, and ask `simulate`: it lets the contact land, and says whether it stays at rest",
-            ),
-            Self::NoFreedom { may_open: false } => Some(
-                "a mechanism needs at least one motion; remove a joint or constraint, or draw guides parallel that are meant to be: how far they are off is their `misalignment`",
-            ),
+            Self::NoFreedom { may_open: true } => Some(CLOSED_ALONE),
+            Self::NoFreedom { may_open: false } => Some(NO_MOTION),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
-            Self::DriveBlocked { .. } => Some(
-                "a drive prescribes its motion whatever it meets: what may come to rest on a stop is pushed by a force in `loads`",
-            ),
+            Self::DriveBlocked { .. } => Some(MEETS_A_STOP),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
             Self::Overflow { .. } | Self::IllConditioned { .. } => {
@@ -1048,6 +1042,13 @@ fn are(bodies: &[String]) -> String {
 fn constraints(count: usize) -> String {
     if count == 1 { "1 constraint is".into() } else { format!("{count} constraints are") }
 }
+
+/// The hint where a closed contact is all that keeps a mechanism from moving.
+const CLOSED_ALONE: &str = "a closed contact is all that stops it: write `closed = false` there, draw it a little open or give the coordinate such a value, and ask `simulate`: it lets the contact land, and says whether it stays at rest";
+/// The hint where the joints leave no motion.
+const NO_MOTION: &str = "a mechanism needs at least one motion; remove a joint or constraint, or draw guides parallel that are meant to be: how far they are off is their `misalignment`";
+/// The hint where a drive meets what stops it.
+const MEETS_A_STOP: &str = "a drive prescribes its motion whatever it meets: what may come to rest on a stop is pushed by a force in `loads`";
 
 fn modes_in_words(count: usize) -> String {
     if count == 1 { "1 contact mode".into() } else { format!("{count} contact modes") }

@@ -69,8 +69,8 @@ pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
 fn in_turn(parts: &[String]) -> String {
     match parts {
         [first @ .., before, last] => {
-            let first: String = first.iter().map(|part| format!("{part}, ")).collect();
-            format!("{first}{before} and {last}")
+            let first = first.iter().chain([before]).map(String::as_str).collect::<Vec<_>>().join(", ");
+            format!("{first} and {last}")
         }
         parts => parts.concat(),
     }
@@ -315,9 +315,10 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
         if let Some(factor) = direction.unique_at_least {
-            return Some(match effort::is_any_friction(factor) {
-                true => "it does not jam, whatever the friction".to_owned(),
-                false => format!("it does not jam even with {}", times(factor)),
+            return Some(if effort::is_any_friction(factor) {
+                "it does not jam, whatever the friction".to_owned()
+            } else {
+                format!("it does not jam even with {}", times(factor))
             });
         }
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);

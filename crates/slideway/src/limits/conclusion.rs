@@ -255,7 +255,7 @@ fn undetermined(shared: &[String]) -> String {
 
 /// A stretch in which the share of guides in a load is open, cut where forces grow without limit for one share: beyond,
 /// it depends on the share whether it jams.
-fn by_share(whole: Piece, modes: &[ModeLimits], shared: &[String]) -> Vec<Piece> {
+fn by_share(whole: &Piece, modes: &[ModeLimits], shared: &[String]) -> Vec<Piece> {
     let grows = |is: ModeEndCause| matches!(is, ModeEndCause::Locking | ModeEndCause::WithoutBound);
     let end = |at: Option<f64>, is: ModeEndCause| at.filter(|_| grows(is));
     let ends = modes.iter().map(|mode| [end(mode.from, mode.from_is), end(mode.to, mode.to_is)]);
@@ -294,7 +294,7 @@ fn one_direction(direction: &Direction, driven: bool, shared: &[String]) -> Vec<
         let verdict = verdict.to_owned();
         let whole = Piece { from: count.from, to: count.to, verdict, is_motion, known: count.known };
         if count.continuum && driven && starts.is_none() && !shared.is_empty() {
-            return by_share(whole, &direction.modes, shared);
+            return by_share(&whole, &direction.modes, shared);
         }
         let pieces = if is_motion { by_tipping(whole, &direction.modes) } else { vec![whole] };
         let by_speed = |piece: Piece| {

@@ -143,8 +143,8 @@ impl Writer<'_> {
         let verdict = self.verdict(pattern);
         let tips = !self.stages.openings.is_empty() && !self.mechanism.tipped(pattern).is_empty();
         rows.heads.push(RowHead {
-            kind,
             tips,
+            kind,
             verdict,
             negative_determinant,
             ..head(point, PointStatus::None)
