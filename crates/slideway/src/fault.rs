@@ -501,7 +501,7 @@ pub enum FaultKind {
     #[error("nothing keeps {body} from {motion}")]
     NotCarried { body: String, motion: String },
     #[error("the mechanism cannot move: its joints leave no degree of freedom")]
-    NoFreedom,
+    NoFreedom { may_open: bool },
     #[error("{} of freedom, but {}", degrees(*degrees_of_freedom), coordinates(*chosen))]
     CoordinateCount { degrees_of_freedom: usize, chosen: usize, undetermined: Vec<String> },
     #[error("the chosen coordinates do not determine the motion of {}", listed(bodies))]
@@ -537,6 +537,8 @@ pub enum FaultKind {
     MotionWithoutInertia { motion: String },
     #[error("the drives cannot produce their motion: {motion}")]
     DriveCannotMove { drives: Vec<String>, motion: String },
+    #[error("{} drives {}, but the joints stop it", listed(drives), listed(coordinates))]
+    DriveBlocked { drives: Vec<String>, coordinates: Vec<String> },
     #[error("the kinetic equations are too ill-conditioned to be solved (condition {condition:.1e})")]
     IllConditioned { condition: f64 },
     #[error(
@@ -580,7 +582,7 @@ pub enum FaultKind {
     LimitUnit { typed: String, wanted: &'static str },
     #[error("whether {what} is held could not be decided")]
     UndecidedAtRest { what: String },
-    #[error("the limits of {modes} contact modes could not be computed")]
+    #[error("the limits of {} could not be computed", modes_in_words(*modes))]
     LimitsNotComputed { modes: usize },
     #[error("a guided slider is between its faces, and how its state changes with friction is not followed")]
     BetweenFaces,
@@ -706,7 +708,9 @@ impl FaultKind {
                 "change the coordinates until there is a gap; what touches is `closed = true`, and needs one coordinate less"
                     .to_owned(),
             ),
-            Self::TouchesThoughApart { .. } => Some("leave out `closed`: it touches".to_owned()),
+            Self::TouchesThoughApart { .. } => Some(
+                "leave out `closed`: it touches; or, where nothing else could move then, give a coordinate a value at which it is a little open: `simulate` lets it land".to_owned(),
+            ),
             Self::PreloadOfPressFit { .. } => Some("give one `preload` for both faces".to_owned()),
             Self::PlayChangesSign { .. } => Some(
                 "ask for plays below zero and for others one by one: a press fit has two contacts, its faces, and another fit has one"
@@ -925,12 +929,12 @@ impl FaultKind {
             Self::NotFollowed { .. } => Some(
                 "this is a dead centre of the coordinates or a point where branches meet: draw the mechanism beyond it, or choose coordinates that continue there",
             ),
-            Self::NoFreedom => Some(
-                "a mechanism needs at least one motion; remove a joint or constraint, or draw guides parallel that are meant to be: how far they are off is their `misalignment`",
-            ),
+            Self::NoFreedom { may_open: true } => Some(CLOSED_ALONE),
+            Self::NoFreedom { may_open: false } => Some(NO_MOTION),
             Self::DependentCoordinates { .. } => {
                 Some("it may be at a dead centre of these coordinates: choose others, or another position")
             }
+            Self::DriveBlocked { .. } => Some(MEETS_A_STOP),
             Self::DriveCannotMove { .. } => Some("change the line of action of the drive's force or torque"),
             Self::NotAssembled { .. } => Some("its joints do not close in the drawing: check the points"),
             Self::Overflow { .. } | Self::IllConditioned { .. } => {
@@ -1051,6 +1055,17 @@ fn are(bodies: &[String]) -> String {
 
 fn constraints(count: usize) -> String {
     if count == 1 { "1 constraint is".into() } else { format!("{count} constraints are") }
+}
+
+/// The hint where a closed contact is all that keeps a mechanism from moving.
+const CLOSED_ALONE: &str = "a closed contact is all that stops it: write `closed = false` there, draw it a little open or give the coordinate such a value, and ask `simulate`: it lets the contact land, and says whether it stays at rest";
+/// The hint where the joints leave no motion.
+const NO_MOTION: &str = "a mechanism needs at least one motion; remove a joint or constraint, or draw guides parallel that are meant to be: how far they are off is their `misalignment`";
+/// The hint where a drive meets what stops it.
+const MEETS_A_STOP: &str = "a drive prescribes its motion whatever it meets: what may come to rest on a stop is pushed by a force in `loads`";
+
+fn modes_in_words(count: usize) -> String {
+    if count == 1 { "1 contact mode".into() } else { format!("{count} contact modes") }
 }
 
 fn degrees(count: usize) -> String {

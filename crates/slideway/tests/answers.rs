@@ -41,7 +41,7 @@ fn drive_answers() {
         // P = Q / (1 - 2 mu a / L), which has no limit at mu = L / (2 a) = 2/3.
         (
             driven("drawer", &[]),
-            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam from mu = 0.6667 (2.222 times this friction). Backwards, push needs 13.79 N (20 N without friction) to brake the load: efficiency 68.97 %. Backwards, it does not jam at any friction while it moves, but from mu = 0.6667 (2.222 times this friction) it may also move otherwise: `solve` with that friction shows how.",
+            "push needs 36.36 N (20 N without friction): efficiency 55 %. It would jam from mu = 0.6667 (2.222 times this friction). Backwards, push needs 13.79 N (20 N without friction) to brake the load: efficiency 68.97 %. Backwards, it does not jam at any friction while it moves, but from mu = 0.6667 (2.222 times this friction) it can also move in another way (`limits --vary friction=1..5 --both-directions` shows it).",
         ),
         (
             driven("drawer", &[("mu", "0.8")]),
@@ -53,7 +53,7 @@ fn drive_answers() {
         ),
         (
             driven("wedge", &[]),
-            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards, friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards, from mu = 0.8391 (5.594 times this friction) it may also move otherwise: `solve` with that friction shows how. Backwards, it would tip (floor) from mu = 4 (26.67 times this friction), which only a block slider can show.",
+            "P needs 0.5109 kN (0.1763 kN without friction): efficiency 34.51 %. It would jam from mu = 0.8391 (5.594 times this friction). Backwards, friction holds the load: to move it, P needs -0.1239 kN (0.1763 kN without friction). Backwards, from mu = 0.8391 (5.594 times this friction) it can also move in another way (`limits --vary friction=1..12 --both-directions` shows it). Backwards, it would tip (floor) from mu = 4 (26.67 times this friction), which only a block slider can show.",
         ),
         (
             driven("stick-slip", &[]),
@@ -61,7 +61,7 @@ fn drive_answers() {
         ),
         (
             driven("bell-crank", &[]),
-            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. It does not jam even with a million times this friction. Backwards, push needs 0.5549 kN (0.625 kN without friction) to brake the load: efficiency 88.79 %. Backwards, it does not jam even with a million times this friction.",
+            "push needs 0.6998 kN (0.625 kN without friction): efficiency 89.31 %. It does not jam, whatever the friction. Backwards, push needs 0.5549 kN (0.625 kN without friction) to brake the load: efficiency 88.79 %. Backwards, it does not jam, whatever the friction.",
         ),
         (
             driven(EQUAL_PLAY, &[]),

@@ -184,9 +184,10 @@ fn of_limits(outcome: Outcome) -> First {
             Line(limited("painleve-klein", &[], "mu=4..5"), "It jams for mu from 4 to 5 (the model has 0.5).")
         }
         Several => Line(limited("klepp-2002", &[], "mu_1=0.5..1"), "mu_1 from 0.5 to 1: three solutions."),
-        Undetermined => {
-            Line(limited(EQUAL_PLAY, &[], "mu=0..1"), "mu from 0 to 1: infinitely many solutions.")
-        }
+        Undetermined => Line(
+            limited(EQUAL_PLAY, &[], "mu=0..1"),
+            "mu from 0 to 0.25: it moves, but how left, right share the load is undetermined.",
+        ),
         Gap => Line(
             limited("klepp-2002", &IN_GAP, "m=0.9 kg..1.1 kg"),
             "m from 0.9 to 1.1 kg: it moves in a preload gap.",

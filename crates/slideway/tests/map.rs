@@ -71,6 +71,7 @@ fn classes_are_the_numbers_of_certified_solutions() {
             let expected = ClassMeaning::Solutions {
                 solutions: answer.solutions.len(),
                 preload_gap_states: answer.preload_gap_states.len(),
+                tipping: 0,
             };
             assert_eq!(*meaning, expected, "mu_1 = {x}, F_20 = {y}");
         }
@@ -90,7 +91,7 @@ fn maps_of_many_contacts_have_the_numbers_of_certified_solutions() {
         let answer = solve(&boom.with(&settings).expect("sound")).expect("solvable");
         let expected = match answer.solutions.len() {
             0 => ClassMeaning::Locked,
-            solutions => ClassMeaning::Solutions { solutions, preload_gap_states: 0 },
+            solutions => ClassMeaning::Solutions { solutions, preload_gap_states: 0, tipping: 0 },
         };
         assert_eq!(report.classes[report.class_at(i, j)].meaning, expected, "mu = {x}, overlap = {y}");
     }
@@ -109,7 +110,7 @@ fn the_boundary_is_the_locking_value_to_the_pixel() {
     assert!((locking - 0.452_653_96).abs() < 5e-9);
     for column in 0..pixels {
         let solutions = if middle([0.0, 0.8], column, pixels) < locking { 1 } else { 2 };
-        let expected = ClassMeaning::Solutions { solutions, preload_gap_states: 0 };
+        let expected = ClassMeaning::Solutions { solutions, preload_gap_states: 0, tipping: 0 };
         assert_eq!(report.classes[report.class_at(column, 50)].meaning, expected, "column {column}");
     }
 }
@@ -129,7 +130,7 @@ fn a_drawer_locks_where_its_guide_is_too_short() {
         for i in 0..size[0] {
             let [mu, length] = [middle(ranges[0], i, size[0]), middle(ranges[1], j, size[1])];
             let factor = length / (2.0 * 0.3 * mu);
-            let one = ClassMeaning::Solutions { solutions: 1, preload_gap_states: 0 };
+            let one = ClassMeaning::Solutions { solutions: 1, preload_gap_states: 0, tipping: 0 };
             assert_eq!(locked(&number, i, j), if factor > 1.0 { one } else { ClassMeaning::Locked });
             match locked(&margin, i, j) {
                 ClassMeaning::Locked => assert!(factor <= 1.0, "mu = {mu}, L = {length}"),
@@ -240,7 +241,7 @@ fn a_guided_slider_is_between_its_faces_where_its_preload_balances_the_moment() 
         tips_as_in_model: tips,
         tips_opposite: tips,
     };
-    let number = ClassMeaning::Solutions { solutions: 0, preload_gap_states: 1 };
+    let number = ClassMeaning::Solutions { solutions: 0, preload_gap_states: 1, tipping: 0 };
     let classes = [
         (ColourBy::Solutions, number.clone(), ClassMeaning::Tips),
         (ColourBy::Modes, ClassMeaning::Modes { patterns: vec!["0".to_owned()] }, ClassMeaning::Tips),

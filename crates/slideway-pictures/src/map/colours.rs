@@ -47,11 +47,11 @@ pub(super) fn paint(classes: &[MapClass], class: &MapClass, theme: &Theme) -> Pa
             Paint { fill: LOCKED, hatching: Some(Hatching::Rising) }
         }
         ClassMeaning::Solutions { .. } if is_of_margins(classes) => plain(SEVERAL),
-        ClassMeaning::Solutions { solutions, preload_gap_states } => {
+        ClassMeaning::Solutions { solutions, preload_gap_states, tipping } => {
             let fill =
                 if *solutions == 0 { "#f2e2b6" } else { numbers[(solutions - 1).min(numbers.len() - 1)] };
             let hatching = match preload_gap_states {
-                0 => None,
+                0 => (*tipping > 0).then_some(Hatching::Rising),
                 1 => Some(Hatching::Falling),
                 _ => Some(Hatching::Rising),
             };

@@ -191,7 +191,7 @@ __all__ = [
     "Tipping",
     "TippingLimit",
     "TippingRange",
-    "TipsAt",
+    "TipsOver",
     "TreeReport",
     "UncertainMode",
     "UncertainParameter",
@@ -1315,10 +1315,11 @@ class CourseDirection(Record):
     peaks: tuple[PeakEffort, ...] = ()
     """Where the effort of each drive is greatest, by its magnitude; absent where one grows without bound, where
     there are several states, and with friction in hinges."""
-    tips: tuple[TipsAt, ...] = ()
-    """Where joints begin to tip, in ascending order; absent where none does, and with friction in hinges."""
+    tips: tuple[TipsOver, ...] = ()
+    """Ranges in which joints tip in every state, in ascending order; absent where none does, and with friction
+    in hinges."""
     locked: tuple[LockedRange, ...] = ()
-    """With friction in hinges: ranges without a solution."""
+    """Ranges without a solution: it jams."""
     without_mode_problem: tuple[RangeWithoutProblem, ...]
     """Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed."""
 
@@ -3216,6 +3217,8 @@ class Tally(Record):
     """Points at which it stays at rest in every state, by what became of them; inserted ones are left out."""
     tipping: int
     """Points without a solution because a guided slider tips; inserted ones are left out."""
+    tips: int
+    """Points at which a block tips in every state; inserted ones are left out."""
     boundary_rows: int
     """Rows on the boundary between modes."""
     refusals: Mapping[PointStatus, tuple[int, str]]
@@ -3295,13 +3298,13 @@ class TippingRange(Record):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class TipsAt(Record):
-    """Where joints begin to tip."""
+class TipsOver(Record):
+    """A range in which joints tip in every state."""
 
-    at: float
-    """The value of what is varied."""
-    above: bool
-    """Whether they tip above it, or else below."""
+    from_: float
+    """Its lower end, a value of what is varied."""
+    to: float
+    """Its upper end."""
     joints: tuple[str, ...]
     """The joints."""
 

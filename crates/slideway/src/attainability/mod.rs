@@ -388,8 +388,8 @@ fn reversed(mechanism: &Mechanism) -> String {
         Effort::Torque { body, .. } => format!("rotation = \"{}\"", mechanism.frame_name(body)),
     };
     format!(
-        "{coordinate} is measured in another place or direction than {} acts. Held exactly there, {unstable}. Measure \
-         {coordinate} where it acts: `{measure}` in [coordinates.{coordinate}]",
+        "{coordinate} is measured in another place or direction than {0} acts. Held exactly there, {unstable}. Measure \
+         {coordinate} where {0} acts: `{measure}` in [coordinates.{coordinate}]",
         drive.name
     )
 }

@@ -128,7 +128,7 @@ fn check_coordinate_count(
     let determined = mobility.constraints - mechanism.excess.rows.len();
     let degrees_of_freedom = mobility.body_coordinates - determined.min(mobility.body_coordinates);
     if degrees_of_freedom == 0 {
-        return Err(Fault::general(FaultKind::NoFreedom).into());
+        return Err(Fault::general(FaultKind::NoFreedom { may_open: mechanism.has_one_sided() }).into());
     }
     let chosen = mechanism.coordinates.len();
     if chosen == degrees_of_freedom {

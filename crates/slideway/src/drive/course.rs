@@ -2,18 +2,20 @@
 
 use super::efforts::{Efforts, GROWTH};
 use super::peak::{SAME_ROW, peaks};
-use super::report::{Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, Sense, TipsAt};
+use super::report::{
+    Approach, BlowUp, CourseDirection, CourseMode, CourseRow, DriveSolution, LockedRange, Sense, TipsOver,
+};
 use super::state::{self, AllEfforts, growing_ends};
 use crate::fault::Faults;
 use crate::ids::ContactId;
 use crate::limits::{Method, ModesFound, Naming, RangeWithoutProblem, StateAt, Varied, find, guarantee};
 use crate::mechanism::Mechanism;
 use crate::modes::ContactState;
-use crate::modes::existence::{EndCause, ModeEnd, ModeInterval};
+use crate::modes::existence::{EndCause, ModeEnd, ModeInterval, cells, ends};
 use crate::progress::Work;
 use crate::report::{Status, Verdict, joints_in_words};
 use crate::scan::{bisect_until, evenly};
-use crate::solve::{Stages, pattern};
+use crate::solve::{Happens, Stages, happens, pattern};
 use std::ops::ControlFlow;
 
 /// Places nearer to zero than this share of the range are zero.
@@ -62,50 +64,34 @@ pub(super) fn direction(
     let rows = course.rows(steps);
     let modes = modes(&rows, &naming);
     let peaks = peaks(&places, (&found, &rows, &blow_ups), efforts);
-    let tips = tips(&found, &naming.mechanism, range);
+    let (tips, locked) = stops(&found, &naming.mechanism);
     let without_mode_problem = RangeWithoutProblem::of(&found);
     let sampled = found.method == Method::Bracketing;
     Ok((
         Guarantee { sampled, words: guarantee(&found, &varied.shown_in) },
-        CourseDirection {
-            direction,
-            rows,
-            modes,
-            blow_ups,
-            peaks,
-            tips,
-            locked: Vec::new(),
-            without_mode_problem,
-        },
+        CourseDirection { direction, rows, modes, blow_ups, peaks, tips, locked, without_mode_problem },
     ))
 }
 
-/// Where modes end since joints tip, whether or not there is another one in which they do: what happens first counts.
-fn tips(found: &ModesFound, mechanism: &Mechanism, [from, to]: [f64; 2]) -> Vec<TipsAt> {
-    let ends =
-        found.existence.modes.iter().flat_map(|mode| [(mode, &mode.from, false), (mode, &mode.to, true)]);
-    let tips = ends.filter(|(_, end, _)| from < end.at && end.at < to).map(|(mode, end, above)| TipsAt {
-        at: found.same_ends.told(end.at),
-        above,
-        joints: tips_at_end(mechanism, &mode.pattern, &end.cause),
-    });
-    let mut tips: Vec<TipsAt> = tips.filter(|one| !one.joints.is_empty()).collect();
-    tips.sort_by(|one, other| one.at.total_cmp(&other.at));
-    tips.dedup();
-    tips
-}
-
-/// The joints that tip where a mode ends: guided sliders, and blocks of which a corner lifts off while another one stays.
-fn tips_at_end(mechanism: &Mechanism, pattern: &[ContactState], cause: &EndCause) -> Vec<String> {
-    match cause {
-        EndCause::OutputBound(bounds) => mechanism.guided_sliders(bounds),
-        EndCause::SideChange(contacts) if mechanism.tipped(pattern).is_empty() => {
-            let mut lifted = pattern.to_vec();
-            contacts.iter().for_each(|&contact| lifted[contact] = ContactState::Negative);
-            mechanism.tipped(&lifted)
+/// The ranges in which joints tip in every state, and those in which it jams.
+fn stops(found: &ModesFound, mechanism: &Mechanism) -> (Vec<TipsOver>, Vec<LockedRange>) {
+    let (mut tips, mut locked): (Vec<TipsOver>, Vec<LockedRange>) = (Vec::new(), Vec::new());
+    let same = |one: f64, other: f64| found.same_ends.are_one(one.min(other), one.max(other));
+    for count in &found.counts {
+        let inside = ends(&found.existence.modes).filter(|end| count.from < *end && *end < count.to);
+        for cell in cells(inside.chain([count.from, count.to]), same) {
+            let [from, to] = cell.map(|end| found.same_ends.told(end));
+            match happens((&found.existence, mechanism), cell, same) {
+                Happens::Tips(joints) => match tips.last_mut() {
+                    Some(last) if last.joints == joints && last.to == from => last.to = to,
+                    _ => tips.push(TipsOver { from, to, joints }),
+                },
+                Happens::Nothing if count.is_empty() => locked.push(LockedRange { from, to }),
+                Happens::Nothing | Happens::Moves => {}
+            }
         }
-        _ => Vec::new(),
     }
+    (tips, locked)
 }
 
 /// The modes of rows, each once, in words: those of a block that floats, where it does so in every row.

@@ -46,7 +46,7 @@ pub(crate) use efforts::Efforts;
 pub use report::{
     Approach, BlowUp, Course, CourseDirection, CourseMode, CourseRow, DriveDirection, DriveName, DriveReport,
     DriveSolution, Efficiency, EfficiencyKind, EffortRange, Frictionless, HeldEffort, LockedRange,
-    PeakEffort, SCHEMA, Sense, TipsAt,
+    PeakEffort, SCHEMA, Sense, TipsOver,
 };
 
 use crate::fault::Faults;

@@ -273,24 +273,24 @@ pub struct CourseDirection {
     /// several states, and with friction in hinges.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub peaks: Vec<PeakEffort>,
-    /// Where joints begin to tip, in ascending order; absent where none does, and with friction in hinges.
+    /// Ranges in which joints tip in every state, in ascending order; absent where none does, and with friction in hinges.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub tips: Vec<TipsAt>,
-    /// With friction in hinges: ranges without a solution.
+    pub tips: Vec<TipsOver>,
+    /// Ranges without a solution: it jams.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub locked: Vec<LockedRange>,
     /// Ranges in which the mechanism cannot be assembled or solved, or the model is not allowed.
     pub without_mode_problem: Vec<RangeWithoutProblem>,
 }
 
-/// Where joints begin to tip.
+/// A range in which joints tip in every state.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct TipsAt {
-    /// The value of what is varied.
-    pub at: f64,
-    /// Whether they tip above it, or else below.
-    pub above: bool,
+pub struct TipsOver {
+    /// Its lower end, a value of what is varied.
+    pub from: f64,
+    /// Its upper end.
+    pub to: f64,
     /// The joints.
     pub joints: Vec<String>,
 }

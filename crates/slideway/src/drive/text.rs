@@ -151,7 +151,7 @@ impl Page<'_, DriveReport> {
                 let at = format!("{} = {}", course.vary.name, course.vary.shown_in.precise(blow_up.at));
                 self.line(&format!("  {}.", without_limit(self.report, blow_up, &at, details)));
             }
-            for LockedRange { from, to } in &direction.locked {
+            for LockedRange { from, to } in direction.locked.iter().filter(|_| details) {
                 let unit = &course.vary.shown_in;
                 let [from, to] = [unit.precise_number(*from), unit.precise(*to)];
                 self.line(&format!("  From {} = {from} to {to} it jams.", course.vary.name));

@@ -2,8 +2,9 @@
 
 use super::report::{
     Approach, BlowUp, CourseDirection, DriveDirection, DriveName, DriveReport, DriveSolution, Efficiency,
-    EfficiencyKind, EffortRange, PeakEffort, Sense, TipsAt,
+    EfficiencyKind, EffortRange, PeakEffort, Sense,
 };
+use crate::limits::VariedQuantity;
 use crate::report::effort::{self, least_friction, times, times_friction, unsettled, which_way};
 use crate::report::{
     JointMode, OnFace, SHOWN_BY, Status, Verdict, capital, it_tips, it_would_tip, spaced, with_less,
@@ -28,7 +29,7 @@ pub(super) fn at_rest(report: &DriveReport) -> impl Iterator<Item = String> + '_
     report.held.iter().map(|held| format!("At rest: {}", held.words))
 }
 
-/// Where joints tip, and the greatest efforts over what is varied: "Over h from 200 to 5000 mm, it tips (shoes) from 1500 mm on.",
+/// Where it jams or tips, and the greatest efforts: "Over h from 200 to 5000 mm, it tips (shoes) from 1500 mm on.",
 /// "Over phi from 5 to 175 deg, motor is greatest at 77 deg: 1275 N m." Nothing of an effort that hardly varies.
 pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
     let Some(course) = &report.course else { return Vec::new() };
@@ -47,15 +48,43 @@ pub(super) fn greatest(report: &DriveReport) -> Vec<String> {
             Sense::Reversed => format!("Backwards, over {range}, {told}"),
         })
     };
-    let tips = |way: &CourseDirection, limit: &TipsAt| {
+    let stops = |way: &CourseDirection| {
         let over = if way.direction == Sense::Model { "Over" } else { "Backwards, over" };
-        let (side, on) = if limit.above { ("from", " on") } else { ("below", "") };
-        format!("{over} {range}, {} {side} {}{on}.", it_tips(&limit.joints), vary.shown_in.brief(limit.at))
+        let jams = way.locked.iter().map(|jams| ([jams.from, jams.to], "jams".to_owned()));
+        let tips = way
+            .tips
+            .iter()
+            .map(|tips| ([tips.from, tips.to], it_tips(&tips.joints).trim_start_matches("it ").to_owned()));
+        let mut stops: Vec<([f64; 2], String)> = jams.chain(tips).collect();
+        stops.sort_by(|one, other| one.0[0].total_cmp(&other.0[0]));
+        let told: Vec<String> =
+            stops.iter().map(|(ends, what)| format!("{what} {}", stretch(vary, *ends))).collect();
+        (!told.is_empty()).then(|| format!("{over} {range}, it {}.", in_turn(&told)))
     };
-    let tipping = course.directions.iter().flat_map(|way| way.tips.iter().map(move |limit| (way, limit)));
     let peaks = course.directions.iter().flat_map(|way| way.peaks.iter().map(move |peak| (way, peak)));
-    let tipping = tipping.map(|(way, limit)| tips(way, limit));
-    tipping.chain(peaks.filter_map(|(way, peak)| one(way, peak))).collect()
+    course.directions.iter().filter_map(stops).chain(peaks.filter_map(|(way, peak)| one(way, peak))).collect()
+}
+
+/// "jams below 2 m and tips from 4 m on", with commas between more.
+fn in_turn(parts: &[String]) -> String {
+    match parts {
+        [first @ .., before, last] => {
+            let first = first.iter().chain([before]).map(String::as_str).collect::<Vec<_>>().join(", ");
+            format!("{first} and {last}")
+        }
+        parts => parts.concat(),
+    }
+}
+
+/// A part of the range: "from 1524 mm on", "below 20 mm", "from 1524 to 1658 mm", "throughout".
+fn stretch(vary: &VariedQuantity, [from, to]: [f64; 2]) -> String {
+    let shown = |value: f64| vary.shown_in.brief(value);
+    match (from <= vary.from, to >= vary.to) {
+        (true, true) => "throughout".to_owned(),
+        (true, false) => format!("below {}", shown(to)),
+        (false, true) => format!("from {} on", shown(from)),
+        (false, false) => format!("from {} to {}", vary.shown_in.brief_number(from), shown(to)),
+    }
 }
 
 /// The advice that makes an undetermined effort determinate.
@@ -262,7 +291,12 @@ fn tipping(direction: &DriveDirection) -> Option<String> {
 fn outlook(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Vec<String> {
     let at = |factor: f64| times_friction(factor, direction.mu.map(|mu| factor * mu));
     let others = direction.another_count.map(|changes| {
-        format!("from {} it may also move otherwise: `solve` with that friction shows how", at(changes))
+        let both = if direction.direction == Sense::Reversed { " --both-directions" } else { "" };
+        let range = format!("1..{}", (2.0 * changes).ceil());
+        format!(
+            "from {} it can also move in another way (`limits --vary friction={range}{both}` shows it)",
+            at(changes)
+        )
     });
     match jam(report, direction, is_advised) {
         Some(never) if direction.never_jams => {
@@ -281,7 +315,11 @@ fn jam(report: &DriveReport, direction: &DriveDirection, is_advised: bool) -> Op
     let [.., last] = direction.solutions.as_slice() else { return None };
     let Some(factor) = direction.no_solution else {
         if let Some(factor) = direction.unique_at_least {
-            return Some(format!("it does not jam even with {}", times(factor)));
+            return Some(if effort::is_any_friction(factor) {
+                "it does not jam, whatever the friction".to_owned()
+            } else {
+                format!("it does not jam even with {}", times(factor))
+            });
         }
         let settles = !matches!(last.attainability, Verdict::Unattainable | Verdict::Flutter);
         let never = direction.never_jams && direction.solutions.len() == 1 && settles;

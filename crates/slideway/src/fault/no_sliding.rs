@@ -82,5 +82,7 @@ fn hint_at_rest(coordinates: &[String], face: &dyn Face) -> String {
 
 /// The question to ask of a joint at rest.
 fn hold(face: &dyn Face) -> String {
-    format!("`{}` says whether it can stay at rest", face.question("hold"))
+    let [hold, size] = ["hold", "size"].map(|name| face.question(name));
+    let against = face.option_with("against", "hold");
+    format!("`{hold}` says whether it can stay at rest, and `{size}` with `{against}` with which dimensions")
 }

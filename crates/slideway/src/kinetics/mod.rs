@@ -654,9 +654,16 @@ impl Builder<'_> {
         if self.layout.drives > 0 && significant(driven.amax()) {
             let drives: Vec<_> =
                 (0..self.layout.drives).filter(|&drive| significant(driven[drive].abs())).collect();
-            let motion = self.prescribed_motion(&drives);
             let names = drives.iter().map(|&drive| self.mechanism.drives[drive].name.to_string()).collect();
             let place = self.mechanism.drives[drives[0]].place.clone();
+            let freedom = self.layout.accelerations.saturating_sub(self.layout.reactions.len());
+            if freedom < self.layout.drives {
+                let coordinate = |&drive: &usize| self.mechanism.drives[drive].coordinate.index();
+                let names_of = |index: usize| self.mechanism.coordinates[index].name.to_string();
+                let coordinates = drives.iter().map(coordinate).map(names_of).collect();
+                return Fault::new(FaultKind::DriveBlocked { drives: names, coordinates }, place);
+            }
+            let motion = self.prescribed_motion(&drives);
             return Fault::new(FaultKind::DriveCannotMove { drives: names, motion }, place);
         }
         let out_of_plane = (bodies..self.layout.accelerations).find(|&index| significant(weights[index]));

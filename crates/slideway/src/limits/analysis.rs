@@ -11,10 +11,10 @@ use super::vary::range_around;
 use crate::fault::Faults;
 use crate::mechanism::Mechanism;
 use crate::model::Model;
-use crate::modes::existence::{CountInterval, EndCause};
+use crate::modes::existence::CountInterval;
 use crate::progress::Work;
 use crate::report::Tipping;
-use crate::solve::Stages;
+use crate::solve::{Stages, guided};
 
 /// What is varied, over which range, and the modes of both directions.
 pub(super) struct Analysis {
@@ -86,14 +86,8 @@ fn tipping(varied: &Varied, found: &ModesFound, work: Work<'_>) -> Vec<Option<Ti
     };
     let beside = |count: &CountInterval| -> Vec<Vec<String>> {
         let Ok(mechanism) = varied.mechanism(count.from) else { return Vec::new() };
-        let ends =
-            found.existence.modes.iter().flat_map(|mode| [(&mode.to, count.from), (&mode.from, count.to)]);
-        let here = ends.filter(|(end, at)| found.same_ends.are_one(end.at.min(*at), end.at.max(*at)));
-        here.filter_map(|(end, _)| match &end.cause {
-            EndCause::OutputBound(bounds) => Some(mechanism.guided_sliders(bounds)),
-            _ => None,
-        })
-        .collect()
+        let same = |end: f64, other: f64| found.same_ends.are_one(other, end);
+        guided(&found.existence, &mechanism, [count.from, count.to], same)
     };
     let within = |count: &CountInterval| {
         if !count.is_empty() || !varied.model().has_guided_sliders() {

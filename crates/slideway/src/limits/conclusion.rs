@@ -3,7 +3,8 @@
 use super::found::Method;
 use super::report::{CountLimits, Direction, Known, ModeLimits, SpeedLimits};
 use super::varied::Varied;
-use crate::modes::existence::is_same_end;
+use crate::ids::ContactId;
+use crate::modes::existence::{cells, is_same_end};
 use crate::report::{HOLDS, ModeEndCause, OnFace};
 use crate::units::number::counted;
 
@@ -11,6 +12,8 @@ use crate::units::number::counted;
 const MOVES: &str = "it moves";
 /// Verdict that it has one solution, in which a block tips over one of its corners.
 const TIPS: &str = "it tips";
+/// The same beyond a stretch in which it jams.
+const TIPS_INSTEAD: &str = "it tips, which is no better";
 /// Verdict that there is no solution, and no guided slider tips.
 const JAMS: &str = "it jams";
 
@@ -31,8 +34,9 @@ pub(super) fn conclusion(
     reversed: Option<&Direction>,
 ) -> Conclusion {
     let driven = !varied.model().drives.is_empty();
+    let shared = shared(varied, forwards);
     let pieces = match reversed {
-        None => one_direction(forwards, driven),
+        None => one_direction(forwards, driven, &shared),
         Some(reversed) => both_directions([forwards, reversed]),
     };
     let mut joined: Vec<Piece> = Vec::new();
@@ -55,6 +59,18 @@ pub(super) fn conclusion(
     let lifting = if tips { String::new() } else { lifting(&forwards.modes, varied) };
     let summary = summary(&joined, &gaps, varied).map(|summary| summary + &lifting);
     let is_plain = joined.iter().all(|piece| [MOVES, TIPS, JAMS].contains(&&*piece.verdict));
+    // Beyond a jam nobody takes what tips for something better.
+    let beside = |index: usize, is: fn(&Piece) -> bool| {
+        let before = index.checked_sub(1).and_then(|before| joined.get(before));
+        before.into_iter().chain(joined.get(index + 1)).any(is)
+    };
+    let is_beyond = |index: &usize| {
+        joined[*index].verdict == TIPS
+            && beside(*index, |piece| piece.verdict == JAMS)
+            && !beside(*index, |piece| piece.is_motion)
+    };
+    let beyond: Vec<usize> = (0..joined.len()).filter(is_beyond).collect();
+    beyond.into_iter().for_each(|index| TIPS_INSTEAD.clone_into(&mut joined[index].verdict));
     let pieces = joined.into_iter().map(|piece| piece.sentence(varied, method));
     let single = |direction: &Direction, way: &str| -> Vec<String> {
         let sentence = |at: &f64| {
@@ -69,7 +85,9 @@ pub(super) fn conclusion(
     let other = reversed.map_or(Vec::new(), |reversed| {
         single(reversed, ", moving in the opposite direction with the same loads,")
     });
-    let sentences: Vec<String> = pieces.chain(single(forwards, "")).chain(other).collect();
+    let mut sentences: Vec<String> = pieces.chain(single(forwards, "")).chain(other).collect();
+    let depends = sentences.iter().any(|sentence| sentence.contains(&undetermined(&shared)));
+    sentences.extend((depends && !shared.is_empty()).then(|| ONE_SHARE.to_owned()));
     // Where a single value has a state of its own there is more to say.
     let summary = summary.filter(|_| forwards.between_faces_at.is_empty());
     // Of more stretches the summary tells what happens first.
@@ -214,7 +232,51 @@ impl Piece {
     }
 }
 
-fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
+/// The advice where the share of guides in a load is open.
+const ONE_SHARE: &str = "Give `stiffness` for one answer.";
+
+/// The joints that share a load, if there are infinitely many solutions anywhere.
+fn shared(varied: &Varied, direction: &Direction) -> Vec<String> {
+    let continuum = direction.counts.iter().find(|count| count.continuum);
+    let Some(mechanism) = continuum.and_then(|count| varied.mechanism(count.from).ok()) else {
+        return Vec::new();
+    };
+    let shares = |k: &usize| mechanism.excess.shares(ContactId(*k));
+    let name = |k: usize| mechanism.joints[mechanism.contacts[k].joint.index()].name.to_string();
+    let mut names: Vec<String> = (0..mechanism.contacts.len()).filter(shares).map(name).collect();
+    names.dedup();
+    names
+}
+
+/// "how left, right share the load is undetermined"
+fn undetermined(shared: &[String]) -> String {
+    format!("how {} share the load", shared.join(", "))
+}
+
+/// A stretch in which the share of guides in a load is open, cut where forces grow without limit for one share: beyond,
+/// it depends on the share whether it jams.
+fn by_share(whole: &Piece, modes: &[ModeLimits], shared: &[String]) -> Vec<Piece> {
+    let grows = |is: ModeEndCause| matches!(is, ModeEndCause::Locking | ModeEndCause::WithoutBound);
+    let end = |at: Option<f64>, is: ModeEndCause| at.filter(|_| grows(is));
+    let ends = modes.iter().map(|mode| [end(mode.from, mode.from_is), end(mode.to, mode.to_is)]);
+    let ends: Vec<[Option<f64>; 2]> = ends.collect();
+    let inside = ends.iter().flatten().flatten().copied().filter(|at| whole.from < *at && *at < whole.to);
+    let piece = |[from, to]: [f64; 2]| {
+        let jammed = |[begins, ends]: &[Option<f64>; 2]| {
+            ends.is_some_and(|at| at <= from) || begins.is_some_and(|at| at >= to)
+        };
+        let share = undetermined(shared);
+        let verdict = if ends.iter().any(jammed) {
+            format!("it may jam: that depends on {share}, which is undetermined")
+        } else {
+            format!("it moves, but {share} is undetermined")
+        };
+        Piece { from, to, verdict, is_motion: false, known: whole.known }
+    };
+    cells(inside.chain([whole.from, whole.to]), is_same_end).into_iter().map(piece).collect()
+}
+
+fn one_direction(direction: &Direction, driven: bool, shared: &[String]) -> Vec<Piece> {
     let pieces = |count: &CountLimits| {
         let without = count.without_solution();
         let is_told = |starts: &&[String]| !count.continuum || **starts == [HOLDS];
@@ -231,6 +293,9 @@ fn one_direction(direction: &Direction, driven: bool) -> Vec<Piece> {
         let is_motion = count.solutions == 1 && !count.continuum;
         let verdict = verdict.to_owned();
         let whole = Piece { from: count.from, to: count.to, verdict, is_motion, known: count.known };
+        if count.continuum && driven && starts.is_none() && !shared.is_empty() {
+            return by_share(&whole, &direction.modes, shared);
+        }
         let pieces = if is_motion { by_tipping(whole, &direction.modes) } else { vec![whole] };
         let by_speed = |piece: Piece| {
             if piece.is_motion { by_speed(piece, &direction.modes) } else { vec![piece] }

@@ -96,7 +96,7 @@ impl SameEnds {
     }
 
     /// Whether two ends are one, or as near to each other as zeros of determinants that are one.
-    pub(super) fn are_one(&self, from: f64, to: f64) -> bool {
+    pub(crate) fn are_one(&self, from: f64, to: f64) -> bool {
         is_same_end(to, from) || !self.are_two(from, to)
     }
 

@@ -56,7 +56,7 @@ pub(super) fn not_examined(found: &ModesFound) -> Vec<String> {
     if !rigid.is_empty() {
         sentences.push(format!(
             "Not examined: {} states in which more contacts press than statics determines; with rigid faces they exist only \
-             where all of these fit exactly. Give `stiffness`.",
+             where all of these fit exactly.",
             rigid.len()
         ));
     }

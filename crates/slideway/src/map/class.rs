@@ -29,6 +29,9 @@ pub enum ClassMeaning {
         solutions: usize,
         /// Number of preload-gap states.
         preload_gap_states: usize,
+        /// In how many of the solutions a block tips over one of its corners.
+        #[serde(skip_serializing_if = "is_zero")]
+        tipping: usize,
     },
     /// The solutions have these patterns of signs, "0" in a preload gap.
     Modes {
@@ -245,8 +248,11 @@ pub(super) fn class(
         mechanism.is_some_and(|mechanism| !mechanism.tipped(&sides_of(pattern)).is_empty())
     };
     let tipping = states.solutions.iter().filter(tips).count();
-    let number =
-        ClassMeaning::Solutions { solutions: states.solutions.len(), preload_gap_states: states.gaps.len() };
+    let number = ClassMeaning::Solutions {
+        solutions: states.solutions.len(),
+        preload_gap_states: states.gaps.len(),
+        tipping,
+    };
     match (colour_by, answer) {
         (ColourBy::Margin, Answer::Problem(point)) if states.solutions.len() == 1 => {
             margin(&point.parts, mechanism).unwrap_or(ClassMeaning::TooLarge)

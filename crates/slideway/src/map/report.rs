@@ -254,16 +254,18 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
     match meaning {
         ClassMeaning::Locked => format!("no solution: {}", without(false)),
         ClassMeaning::Tips => format!("no solution: {} (model it as a block slider)", without(true)),
-        ClassMeaning::Solutions { solutions, preload_gap_states } => {
+        ClassMeaning::Solutions { solutions, preload_gap_states, tipping } => {
             let gaps = match preload_gap_states {
                 0 => String::new(),
                 1 => ", one preload-gap state".to_owned(),
                 several => format!(", {} preload-gap states", counted(*several)),
             };
-            match solutions {
-                0 => format!("no solution{gaps}"),
-                1 => format!("one solution{gaps}"),
-                several => format!("{} solutions{gaps}", counted(*several)),
+            match (solutions, tipping) {
+                (0, _) => format!("no solution{gaps}"),
+                (several, 0) => format!("{}{gaps}", solutions_in_words(*several)),
+                (several, _) => {
+                    format!("{}{gaps}: {}", solutions_in_words(*several), tips(*tipping, *several))
+                }
             }
         }
         ClassMeaning::Modes { patterns } => {
@@ -301,16 +303,8 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
                 changes.iter().map(|change| change.in_words()).collect::<Vec<_>>().join(", ")
             };
             let each: Vec<String> = solutions.iter().map(of_solution).collect();
-            let number = if each.len() == 1 {
-                "one solution".to_owned()
-            } else {
-                format!("{} solutions", counted(each.len()))
-            };
-            let tips = match (*tipping, each.len()) {
-                (0, _) => String::new(),
-                (1, 1) => "it tips".to_owned(),
-                (tipping, _) => format!("it tips in {tipping} of them"),
-            };
+            let number = solutions_in_words(each.len());
+            let tips = tips(*tipping, each.len());
             let changes = if each.iter().all(String::is_empty) { String::new() } else { each.join(" | ") };
             let parts: Vec<String> = [changes, tips].into_iter().filter(|part| !part.is_empty()).collect();
             format!("{number}: {}", parts.join("; "))
@@ -325,6 +319,20 @@ fn words(meaning: &ClassMeaning, model: &Model) -> String {
         ClassMeaning::Continuum => "infinitely many solutions".to_owned(),
         ClassMeaning::TooLarge => "not decided: too many patterns".to_owned(),
         ClassMeaning::NotSolved { reason } => (*reason).to_owned(),
+    }
+}
+
+/// "one solution", "three solutions"
+fn solutions_in_words(solutions: usize) -> String {
+    if solutions == 1 { "one solution".to_owned() } else { format!("{} solutions", counted(solutions)) }
+}
+
+/// "it tips", "it tips in 1 of them"; empty if it does not.
+fn tips(tipping: usize, solutions: usize) -> String {
+    match tipping {
+        0 => String::new(),
+        _ if tipping == solutions => "it tips".to_owned(),
+        _ => format!("it tips in {tipping} of them"),
     }
 }
 

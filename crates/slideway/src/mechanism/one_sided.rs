@@ -64,9 +64,13 @@ impl<T: Real> Mechanism<T> {
 
     /// The joints that tip in a state of the mode problem: some of their corners have left their face, others stay there.
     pub(crate) fn tipped(&self, states: &[ContactState]) -> Vec<String> {
+        self.tipped_where(|k| self.is_closed(states, k))
+    }
+
+    /// The same, where `is_closed` says whether a contact that may lift off is closed; none of other contacts.
+    pub(crate) fn tipped_where(&self, is_closed: impl Fn(usize) -> Option<bool>) -> Vec<String> {
         let tips = |(joint, slider): (JointId, &Slider<T>)| {
-            let corners = slider.contacts.iter().map(|contact| contact.index());
-            let closed: Vec<bool> = corners.filter_map(|k| self.is_closed(states, k)).collect();
+            let closed: Vec<bool> = slider.contacts.iter().filter_map(|k| is_closed(k.index())).collect();
             let tips = closed.contains(&true) && closed.contains(&false);
             tips.then(|| self.joints[joint.index()].name.to_string())
         };

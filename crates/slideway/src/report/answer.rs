@@ -364,7 +364,10 @@ impl SolveReport {
                 let ways = if self.is_listed() { several.len().to_string() } else { self.count.clone() };
                 let (efforts, tips) = (self.efforts_of(several), self.tipping_of(several));
                 let which = effort::which_way(several.iter().map(|one| one.attainability.verdict));
-                format!("It can go on in {ways} ways, and {which}{efforts}.{tips}{unstable}")
+                let measure = several.iter().find_map(|one| one.attainability.measure());
+                let measure =
+                    measure.map_or_else(String::new, |measure| format!(" To decide it, {measure}."));
+                format!("It can go on in {ways} ways, and {which}{efforts}.{tips}{unstable}{measure}")
             }
         }
     }
@@ -462,8 +465,13 @@ impl SolveReport {
         };
         let jams = margin.and_then(|margin| margin.factor);
         let jams = jams.map(|factor| format!("In this contact mode it would jam from {}.", times(factor)));
-        let least =
-            self.unique_at_least.map(|factor| safe_up_to("any load", &format!("at least {}", times(factor))));
+        let least = self.unique_at_least.map(|factor| {
+            if effort::is_any_friction(factor) {
+                "Whatever the friction, it moves in one way only, under any load.".to_owned()
+            } else {
+                safe_up_to("any load", &format!("at least {}", times(factor)))
+            }
+        });
         let missing = self.margins_missing.filter(|reason| *reason != MarginsMissing::Undetermined);
         let missing = missing.map(|reason| format!("Safety factor not computed: {}.", reason.in_words()));
         let known: Vec<String> = jams.into_iter().chain(least).collect();

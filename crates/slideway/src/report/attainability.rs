@@ -130,6 +130,12 @@ impl Attainability {
         words + "."
     }
 
+    /// How to measure a coordinate so that it is decided, "measure x where it acts: ...", where that is the reason.
+    pub(crate) fn measure(&self) -> Option<String> {
+        let reason = self.reason.as_deref().filter(|_| self.verdict == Verdict::Undecided)?;
+        reason.split_once(". Measure ").map(|(_, how)| format!("measure {how}"))
+    }
+
     /// Whereto a disturbance leads from an unattainable solution.
     fn separates_in_words(&self) -> String {
         let to = |fate: &Fate| match fate {

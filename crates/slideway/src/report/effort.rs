@@ -44,10 +44,12 @@ pub(crate) fn least_friction(factor: f64, mu: Option<f64>) -> String {
 
 /// A factor on all friction: "2.222 times this friction".
 pub(crate) fn times(factor: f64) -> String {
-    match factor {
-        1e6 => "a million times this friction".to_owned(),
-        factor => format!("{} times this friction", brief(factor)),
-    }
+    format!("{} times this friction", brief(factor))
+}
+
+/// Whether a factor is as far as friction is looked at, a million: as good as without end.
+pub(crate) fn is_any_friction(factor: f64) -> bool {
+    factor >= 1e6
 }
 
 /// The kind of an effort in this SI unit: "force", "torque"; none of other quantities.

@@ -1,5 +1,6 @@
 //! The report as text for people: words first, then aligned numbers.
 
+use super::effort::{is_any_friction, times};
 use super::number::number;
 use super::page::Page;
 use super::speed::FRICTION_EXCEEDS_LOADS;
@@ -281,6 +282,10 @@ impl Text<'_> {
 
     /// Details on growing friction.
     fn margins(&mut self) {
+        let factor = self.report.unique_at_least.filter(|factor| is_any_friction(*factor));
+        if let Some(factor) = factor.filter(|_| self.is_verbose()) {
+            self.line(&format!("Friction was looked at up to {}.", times(factor)));
+        }
         let Some(margins) = self.report.margins.as_ref().filter(|_| self.is_verbose()) else { return };
         if let Some(critical) = &margins.critical_contact {
             self.line(&format!(
@@ -599,10 +604,10 @@ fn motion_rows(report: &SolveReport, solution: &Solution, verbose: bool) -> Vec<
         }
     }
     for end in &solution.round_ends {
-        let (force, angle) = (units.of("N"), units.of("rad"));
+        let (force, degrees) = (units.of("N"), Unit::of_text("deg").unwrap_or_else(|| units.of("rad")));
         row(&end.name, "force of the rod", force.against(end.normal_force, force_scale), &force);
         if end.normal_force > 1e-13 * force_scale {
-            row(&end.name, "pushes, from n towards z", angle.number(end.direction), &angle);
+            row(&end.name, "its direction, from n towards z", degrees.number(end.direction), &degrees);
         }
     }
     let moments = solution.carried.iter().filter(|carried| carried.unit == "N m");

@@ -86,11 +86,25 @@ impl Words<'_> {
                     None => format!("{wish}: no {name} from {range} {gives}."),
                 }
             }
+            [first, .., last] if let Some(gaps) = self.single_gaps() => {
+                let ends = MetInterval { to: last.to, to_is: last.to_is, ..first.clone() };
+                format!("{wish}: {name} {}, but for {gaps}, where there is no answer.", self.interval(&ends))
+            }
             intervals => {
                 let parts: Vec<String> = intervals.iter().map(|interval| self.interval(interval)).collect();
                 format!("{wish}: {name} {}.", parts.join(", or "))
             }
         }
+    }
+
+    /// "100 mm", of single values without an answer, where these alone are left out; else none.
+    fn single_gaps(&self) -> Option<String> {
+        let between = |pair: &[MetInterval]| {
+            let [end, next] = [pair[0].to, pair[1].from].map(|value| quantity(self.report, value));
+            (end == next && pair[0].to_is == MetEnd::NoPosition).then_some(end)
+        };
+        let gaps: Option<Vec<String>> = self.report.met.windows(2).map(between).collect();
+        Some(gaps?.join(", "))
     }
 
     /// "at least 0.36 m", "at most 30", "from a to b", "can have any value from a to b".
@@ -295,9 +309,9 @@ fn wish(report: &SizeReport) -> String {
         }
         MarginKind::Hold => format!("To hold{} with a safety factor of {margin}", every_load(report)),
         MarginKind::Effort | MarginKind::NormalForce | MarginKind::Pressure => {
-            format!("For a {} of {} at most", subject(report), level(report, report.margin))
+            format!("To keep the {} at {} or less", subject(report), level(report, report.margin))
         }
-        MarginKind::Efficiency => format!("For an efficiency of {margin} at least"),
+        MarginKind::Efficiency => format!("To keep the efficiency at {margin} or more"),
     }
 }
 

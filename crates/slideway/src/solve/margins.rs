@@ -3,7 +3,7 @@
 use super::mode_problem::ProblemData;
 use super::stages::Stages;
 use super::state::{pattern, signs};
-use super::upright::{FALLING, GROWING, Upright, upright};
+use super::upright::{FALLING, GROWING, Upright, distinct, guided, upright};
 use crate::enclosure::EnclosedModeProblem;
 use crate::interval::{Interval, Sign};
 use crate::mechanism::Mechanism;
@@ -265,13 +265,7 @@ impl Growth {
     /// The guided sliders that tip at that factor.
     fn tips(&self, mechanism: &Mechanism) -> Vec<String> {
         let Some(at) = self.no_solution() else { return Vec::new() };
-        let ends = self.existence.modes.iter().map(|mode| &mode.to);
-        let there = ends.filter(|end| is_same_end(end.at.max(at), end.at.min(at)));
-        let bounds = there.filter_map(|end| match &end.cause {
-            EndCause::OutputBound(bounds) => Some(bounds.as_slice()),
-            _ => None,
-        });
-        mechanism.guided_sliders(&bounds.collect::<Vec<_>>().concat())
+        distinct(guided(&self.existence, mechanism, [at, f64::INFINITY], is_same_end).concat())
     }
 
     /// The blocks that lift off a corner and tip before that, and from where on.

@@ -66,7 +66,7 @@ pub(crate) use state::{pattern, signs, states};
 pub(crate) use tolerant::StateWithinTolerances;
 pub(crate) use trail::Trail;
 pub(crate) use uncertainty::{certain_counts, counted};
-pub(crate) use upright::{FALLING, GROWING, Upright, distinct, upright};
+pub(crate) use upright::{FALLING, GROWING, Happens, Upright, distinct, guided, happens, upright};
 pub(crate) use words::joint_mode;
 pub use words::mode_in_words;
 

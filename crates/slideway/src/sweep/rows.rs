@@ -111,6 +111,8 @@ pub struct RowHead {
     pub gap_states: u32,
     /// Number of solutions that a guided slider rejects because it would tip.
     pub rejected: u32,
+    /// Whether a block tips in its state.
+    pub tips: bool,
     /// Kind of state in the row.
     pub kind: RowKind,
     /// Number of the branch, from 1; 0 if there is none.
@@ -132,6 +134,7 @@ impl RowHead {
             solutions: 0,
             gap_states: 0,
             rejected: 0,
+            tips: false,
             kind: RowKind::Nothing,
             branch: 0,
             verdict: Verdict::NotComputed,

@@ -26,6 +26,9 @@ pub struct Tally {
     /// Points without a solution because a guided slider tips; inserted ones are left out.
     #[serde(default)]
     pub tipping: u64,
+    /// Points at which a block tips in every state; inserted ones are left out.
+    #[serde(default)]
+    pub tips: u64,
     /// Rows on the boundary between modes.
     pub boundary_rows: u64,
     /// The first point of each kind that was not solved, and why.
@@ -69,8 +72,9 @@ impl Tally {
                 continue;
             }
             self.tipping += u64::from(head.status == PointStatus::None && head.rejected > 0);
-            let mut states = rows.heads[row..].iter().take_while(|other| other.point == head.point);
-            let rests = states.all(|state| state.kind.rests());
+            let states = || rows.heads[row..].iter().take_while(|other| other.point == head.point);
+            self.tips += u64::from(states().all(|state| state.tips));
+            let rests = states().all(|state| state.kind.rests());
             let outcome = Some(Outcome { status: head.status, solutions: head.solutions, rests });
             if outcome != alike {
                 self.count(alike, count);

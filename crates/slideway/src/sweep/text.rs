@@ -44,9 +44,13 @@ impl Sweep {
                 count => format!("{what} at {count} of {}.", counted(all, "point")),
             },
         };
-        // Of what holds nobody expects that it jams.
-        let jams = (without > 0 || holds.is_none()).then_some(jams);
-        let mut sentences: Vec<String> = holds.into_iter().chain(jams).collect();
+        // Of what holds or tips nobody expects that it jams.
+        let tips = (tally.tips > 0).then(|| match tally.tips {
+            count if count == all => format!("It tips at all {}.", counted(all, "point")),
+            count => format!("It tips at {count} of {}.", counted(all, "point")),
+        });
+        let jams = (without > 0 || holds.is_none() && tips.is_none()).then_some(jams);
+        let mut sentences: Vec<String> = holds.into_iter().chain(tips).chain(jams).collect();
         sentences.extend(advice.map(str::to_owned));
         let several: u64 =
             tally.solutions.iter().filter(|(solutions, _)| **solutions > 1).map(|(_, count)| count).sum();
@@ -113,6 +117,9 @@ impl Page<'_, SweepState> {
         let mut lines: Vec<(String, u64)> = Vec::new();
         if rests > 0 {
             lines.push(("it holds".to_owned(), rests));
+        }
+        if tally.tips > 0 {
+            lines.push(("it tips (counted below, too)".to_owned(), tally.tips));
         }
         for (&solutions, &count) in &tally.solutions {
             let what = match solutions {

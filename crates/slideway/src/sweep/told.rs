@@ -4,7 +4,7 @@ use super::plan::{Plan, Point};
 use super::rows::{PointStatus, RowHead, RowKind, Rows};
 use super::writer::{head, number_in_modes};
 use crate::report::{
-    CertificateKind, Continuum, DrivenMotion, Hinge, Solution, SolveReport, Status, Verdict,
+    CertificateKind, Continuum, DrivenMotion, Hinge, OnFace, Solution, SolveReport, Status, Verdict,
 };
 
 /// Adds the rows of a point: solutions, gap states, corners of continua, undecided modes.
@@ -92,6 +92,7 @@ impl Telling<'_> {
             &state.pattern,
             RowHead {
                 kind,
+                tips: state.joints.iter().any(|joint| joint.face == Some(OnFace::Tips)),
                 negative_determinant: matches!(kind, RowKind::Solution | RowKind::PreloadGap | RowKind::Rest)
                     .then_some(state.determinant < 0.0),
                 verdict: if self.plan.attainability {

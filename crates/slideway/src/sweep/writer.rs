@@ -141,7 +141,14 @@ impl Writer<'_> {
         let kind = if in_gap { RowKind::PreloadGap } else { RowKind::Solution };
         let negative_determinant = Some(state.negative_determinant);
         let verdict = self.verdict(pattern);
-        rows.heads.push(RowHead { kind, verdict, negative_determinant, ..head(point, PointStatus::None) });
+        let tips = !self.stages.openings.is_empty() && !self.mechanism.tipped(pattern).is_empty();
+        rows.heads.push(RowHead {
+            tips,
+            kind,
+            verdict,
+            negative_determinant,
+            ..head(point, PointStatus::None)
+        });
         *if in_gap { &mut counts.gap_states } else { &mut counts.solutions } += 1;
         Some(())
     }

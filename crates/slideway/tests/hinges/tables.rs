@@ -145,7 +145,7 @@ fn a_map_has_the_numbers_of_solutions_of_the_quadratic_equation() {
             seen[expected] += 1;
             let found = match &report.classes[report.class_at(pixel, row)].meaning {
                 ClassMeaning::Locked => 0,
-                ClassMeaning::Solutions { solutions, preload_gap_states: 0 } => *solutions,
+                ClassMeaning::Solutions { solutions, preload_gap_states: 0, .. } => *solutions,
                 other => panic!("{other:?}"),
             };
             assert_eq!(found, expected, "r = {r}, F = {load}");

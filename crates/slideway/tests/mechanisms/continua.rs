@@ -159,7 +159,7 @@ fn a_floating_carriage_has_one_state_in_every_question() {
     let options = MapOptions::new("mu=0.1..0.5".parse().unwrap(), "play=0.1 mm..0.4 mm".parse().unwrap());
     let drawn = map(&carriage, &options).unwrap();
     let classes: Vec<_> = drawn.classes.iter().map(|class| class.meaning.clone()).collect();
-    assert_eq!(classes, [ClassMeaning::Solutions { solutions: 1, preload_gap_states: 0 }]);
+    assert_eq!(classes, [ClassMeaning::Solutions { solutions: 1, preload_gap_states: 0, tipping: 0 }]);
     let driven_carriage = format!(
         "{FLOATING}[drives.push]\ncoordinate = \"x\"\nforce = {{ at = \"carriage.m\", direction = 0 }}\n"
     )

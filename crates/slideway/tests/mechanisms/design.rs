@@ -467,7 +467,7 @@ fn limits_of_pressures_are_told_in_the_unit_in_which_they_were_typed() {
         .typed_in(Unit::of_text("N/mm^2"));
     let text = size(&drawer_with_pads(), &options).expect("sound").text(Style::PLAIN.verbose(true));
     for sentence in [
-        "For a greatest bearing pressure of 0.2 N/mm^2 at most: L at least 0.38 m (examined up to 2 m).",
+        "To keep the greatest bearing pressure at 0.2 N/mm^2 or less: L at least 0.38 m (examined up to 2 m).",
         "The model has L = 0.4 m: the greatest bearing pressure is 0.18182 N/mm^2; the limit is kept.",
         "Where the greatest bearing pressure is at most 0.2 N/mm^2",
     ] {
@@ -497,7 +497,7 @@ fn limits_of_forces_are_told_as_forces() {
     let effort = Against::Effort { drive: Some("push".to_owned()) };
     let text = sized(&model("drawer"), "L", 30.0, effort).text(Style::PLAIN.verbose(true));
     for sentence in [
-        "For a greatest effort of push of 30 N at most: L at least 0.54 m (examined up to 2 m).",
+        "To keep the greatest effort of push at 30 N or less: L at least 0.54 m (examined up to 2 m).",
         "The model has L = 0.4 m: the greatest effort of push is 36.364 N; the limit is not kept.",
         "Where the greatest effort of push is at most 30 N",
         "no solution",

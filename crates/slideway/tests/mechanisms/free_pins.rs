@@ -66,7 +66,7 @@ fn maps_count_and_name_what_solve_lists() {
         MapOptions::new(x, y).size(8, 8)
     };
     let number = map(&pins(), &plane()).expect("mapped");
-    let two = ClassMeaning::Solutions { solutions: 2, preload_gap_states: 0 };
+    let two = ClassMeaning::Solutions { solutions: 2, preload_gap_states: 0, tipping: 0 };
     assert!(
         number.pixels().iter().all(|&class| number.classes[class].meaning == two),
         "{:?}",

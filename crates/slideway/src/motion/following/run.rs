@@ -121,10 +121,13 @@ impl<'a, 'm> Run<'a, 'm> {
                 return end;
             }
             if causes.iter().any(Cause::ends_phase) {
-                match self.decide(causes) {
+                match self.decide(causes.clone()) {
                     Ok(None) => {}
                     Ok(Some(end)) => return end,
-                    Err(faults) => return End::Undecided(faults),
+                    Err(faults) => {
+                        self.tell(causes, Continuations::default(), None);
+                        return End::Undecided(faults);
+                    }
                 }
             } else {
                 self.note(causes, Some(phase), Continuations::default(), None);

@@ -1,15 +1,39 @@
 //! Why a motion ends, as a kind and as a sentence.
 
 use super::stick_slip::stick_slip;
+use crate::fault::{Fault, FaultKind};
 use crate::ids::JointId;
 use crate::motion::moving::cause::Cause;
 use crate::motion::options::SimulateOptions;
 use crate::motion::record::event::{Event, is_wedged, moving};
-use crate::motion::record::history::{End, History};
-use crate::report::{SHOWN_BY, it_tips};
+use crate::motion::record::history::{End, History, PhaseInterval};
+use crate::report::{SHOWN_BY, capital, it_tips};
 
-/// The end in a sentence.
+/// The end in a sentence, and that a block tips on the way.
 pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> String {
+    let end = end(history, options);
+    tipping(history).map_or(end.clone(), |tips| format!("{end} {tips}"))
+}
+
+/// "It tips (shoes) from 0 s on.", "It tips (shoes), first at 0.2 s."; none where nothing does, or the end says so.
+fn tipping(history: &History) -> Option<String> {
+    let mechanism = &history.mechanism;
+    let tipped = |interval: &PhaseInterval| {
+        let is_closed = |k: usize| !interval.phase.is_open(mechanism, k);
+        // What rattles between both faces of its guide does not tip.
+        let is_loose =
+            |k: usize| mechanism.slider(mechanism.contacts[k].joint).is_some_and(|slider| slider.loose);
+        mechanism.tipped_where(|k| (mechanism.contacts[k].opens && !is_loose(k)).then(|| is_closed(k)))
+    };
+    let ends = matches!(history.end, End::OutOfPlane(_) | End::Tips(_));
+    let mut later = history.phases.iter().map(|interval| (interval.from, tipped(interval)));
+    let (from, joints) = later.find(|(_, joints)| !joints.is_empty()).filter(|_| !ends)?;
+    let (tips, at) = (capital(&it_tips(&joints)), mechanism.units.of("s").brief(from));
+    let goes_on = later.all(|(_, joints)| !joints.is_empty());
+    Some(if goes_on { format!("{tips} from {at} on.") } else { format!("{tips}, first at {at}.") })
+}
+
+fn end(history: &History, options: &SimulateOptions) -> String {
     let mechanism = &history.mechanism;
     let time = history.mechanism.units.of("s").brief(history.stop());
     let joint = |joint: &JointId| &mechanism.joints[joint.index()].name;
@@ -71,6 +95,9 @@ pub(super) fn end_in_words(history: &History, options: &SimulateOptions) -> Stri
             options.most_events
         ),
         End::NoValue(faults) => format!("It ends at {time}: {}.", first(faults)),
+        End::Undecided(faults) if faults.sorted().first().copied().is_some_and(is_blocked) => {
+            format!("It ends at {time}: {}.", first(faults))
+        }
         End::Undecided(faults) => format!("Not decided what follows after {time}: {}.", first(faults)),
         End::Interrupted => {
             format!("Not finished: it was followed to {time}, then interrupted. Allow it more time.")
@@ -141,6 +168,11 @@ fn jams_on_the_way(jams: usize) -> String {
 /// The words of the last event.
 fn last_words(history: &History) -> &str {
     history.events.last().map_or("an event", |event| &event.words)
+}
+
+/// Whether a drive meets what stops it.
+fn is_blocked(fault: &Fault) -> bool {
+    matches!(fault.kind, FaultKind::DriveBlocked { .. })
 }
 
 fn first(faults: &crate::fault::Faults) -> String {
