@@ -59,15 +59,11 @@ pub(super) fn conclusion(
     let lifting = if tips { String::new() } else { lifting(&forwards.modes, varied) };
     let summary = summary(&joined, &gaps, varied).map(|summary| summary + &lifting);
     let is_plain = joined.iter().all(|piece| [MOVES, TIPS, JAMS].contains(&&*piece.verdict));
-    // Beyond a jam nobody takes what tips for something better.
-    let beside = |index: usize, is: fn(&Piece) -> bool| {
-        let before = index.checked_sub(1).and_then(|before| joined.get(before));
-        before.into_iter().chain(joined.get(index + 1)).any(is)
-    };
+    // Nobody takes what tips beyond a jam, and beside nothing else, for something better.
     let is_beyond = |index: &usize| {
-        joined[*index].verdict == TIPS
-            && beside(*index, |piece| piece.verdict == JAMS)
-            && !beside(*index, |piece| piece.is_motion)
+        let before = index.checked_sub(1).and_then(|before| joined.get(before));
+        let mut beside = before.into_iter().chain(joined.get(index + 1)).peekable();
+        joined[*index].verdict == TIPS && beside.peek().is_some() && beside.all(|piece| piece.verdict == JAMS)
     };
     let beyond: Vec<usize> = (0..joined.len()).filter(is_beyond).collect();
     beyond.into_iter().for_each(|index| TIPS_INSTEAD.clone_into(&mut joined[index].verdict));

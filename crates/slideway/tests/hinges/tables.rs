@@ -301,7 +301,7 @@ fn a_table_of_drive_has_the_locked_ranges_of_the_dead_centres() {
         }
     }
     assert_eq!(turning.blow_ups.len(), 4, "{:?}", turning.blow_ups);
-    assert!(report.text(Style::default()).contains(" it jams."));
+    assert!(report.text(Style::default()).contains(" it jams from "));
 }
 
 /// About a dead centre the relaxation meets the conditions of all hinges, and each contact jams: the search divides the
