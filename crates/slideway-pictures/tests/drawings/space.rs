@@ -61,6 +61,13 @@ fn a_section_shows_all_forces_across_the_guide() {
     assert!(tips.iter().any(|text| text.contains("front_left - front_right")), "{tips:?}");
 }
 
+/// The body is 0.1 m high: a pull above it has an arm.
+#[test]
+fn a_section_has_an_arm_to_a_load_outside_of_the_body() {
+    let bodies = |c: &str| count(&drawn(c), |one| one.class == Class::Body);
+    assert_eq!(bodies("0.12"), bodies("0.08") + 1);
+}
+
 /// Without a third coordinate there is no section.
 #[test]
 fn planar_models_have_no_section() {

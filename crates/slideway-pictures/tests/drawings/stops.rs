@@ -209,3 +209,40 @@ slide = "slot"
         .collect();
     assert_eq!(found.len(), 1, "{slots:?}");
 }
+
+/// A bar from -0.15 m over a pin at 0 to a corner at 0.3 m, 52 mm above its stop: no face cuts off what lies lower.
+#[test]
+fn a_bar_above_its_stop_is_whole() {
+    let text = r#"
+[points]
+O = [0, 0]
+A = ["0.3 m", 0]
+B = ["-0.15 m", 0]
+[bodies.lever]
+points = ["O", "A", "B"]
+mass = "2 kg"
+centre_of_mass = "O"
+moment_of_inertia = "0.03 kg m^2"
+[joints.pin]
+type = "hinge"
+between = ["lever.O", "ground.O"]
+[joints.stop]
+type = "corner_on_face"
+block = "lever"
+at = "A"
+along = 0
+mu = 0.2
+closed = false
+[loads.W]
+type = "force"
+at = "lever.B"
+components = [0, "-200 N"]
+[coordinates.phi]
+rotation = "lever"
+value = "10 deg"
+"#;
+    let (view, scenes) = drawn(&[Case::new(text, &Settings::default())]);
+    let bars = places(&scenes[0], Class::Body).into_iter().map(|bar| reach(&view, &bar));
+    let least = bars.map(|[from, _]| from).fold(f64::INFINITY, f64::min);
+    assert!(least < -0.15 * 10_f64.to_radians().cos(), "{least}");
+}
