@@ -270,12 +270,11 @@ impl<'s> StructureCheck<'s> {
         let meant = self.meant(table, tags);
         let with = meant.map_or(StandIn::Impossible, |(word, _)| StandIn::Word(word));
         self.path.push("type".to_owned());
-        match table.get("type") {
-            Some(tag) => self.word(tag, &names, &format!("{place}.type"), with),
-            None => {
-                let kind = FaultKind::MissingType { table: place.to_owned(), known: owned(&names) };
-                self.push(kind, value.span(), with);
-            }
+        if let Some(tag) = table.get("type") {
+            self.word(tag, &names, &format!("{place}.type"), with);
+        } else {
+            let kind = FaultKind::MissingType { table: place.to_owned(), known: owned(&names) };
+            self.push(kind, value.span(), with);
         }
         self.path.pop();
         if let Some((_, schema)) = meant {
