@@ -282,7 +282,7 @@ impl Painter<'_> {
             is_corner && slide.look == Look::Face(1.0) && slide.block_frame == Frame::Body(body) && is_near
         };
         let standing: Vec<&Slide> = self.sliders.iter().flatten().filter(stands).collect();
-        standing.into_iter().fold(bar.clone(), |bar, slide| {
+        standing.into_iter().fold(bar, |bar, slide| {
             clipped(&bar, &slide.guide.rectangle([-FAR, FAR], [-slide.half_channel(), FAR]))
         })
     }
